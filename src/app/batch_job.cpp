@@ -134,9 +134,14 @@ private:
         for (size_t i = 0; i < list->size(); ++i) {
             const json& given = list->at(i);
             json element = given;
-            if (given.is_string()) element = json::object({{name, given}});
+            if (!given.is_object()) element = json::object({{name, given}});
             const std::string pointer = json_pointer_part(key) + "/" + std::to_string(i);
             const JsonReader reader(element, pointer, fault_);
+            if (!given.is_object() && !given.is_string()) {
+                const std::string shown = given.is_array() ? "an array" : given.dump();
+                reader.fault(
+                    "", "E-JSON-TYPE", "this is " + shown + "; it must be a string or an object");
+            }
             if (!reader.failed()) read(reader, element);
         }
     }

@@ -59,9 +59,12 @@ std::string reference(const std::filesystem::path& file) {
     return out;
 }
 
-/// True for files that browsers show.
-bool is_shown(const std::filesystem::path& file) {
-    const auto format = output_format_of(file);
+/// True for pictures that browsers show.
+///
+/// In      file: of a manifest's line
+bool is_shown(const Json& file) {
+    if (file.value("mask", false)) return false;
+    const auto format = output_format_of(file.value("file", ""));
     return format && *format != OutputFormat::exr && *format != OutputFormat::tiff;
 }
 
@@ -84,7 +87,7 @@ std::string figure_of(const Json& line, const std::filesystem::path& folder) {
     for (const Json& file : line.value("files", Json::array())) {
         const std::filesystem::path path =
             std::filesystem::absolute(file.value("file", ""), error).lexically_normal();
-        if (shown.empty() && is_shown(path)) shown = reference(path.lexically_proximate(folder));
+        if (shown.empty() && is_shown(file)) shown = reference(path.lexically_proximate(folder));
     }
     const std::string caption = escape_xml(caption_of(line));
     if (!shown.empty()) {

@@ -82,8 +82,7 @@ Result<DatasetRequest> make_dataset_request(const DatasetArguments& arguments) {
     if (request.dataset.formats.nerf && !arguments.vary)
         request.sampling.turns_environment = request.sampling.chooses_variant = false;
     if (arguments.render.variant) request.sampling.chooses_variant = false;
-    if (arguments.render.env_rotation && !arguments.vary)
-        request.sampling.turns_environment = false;
+    if (arguments.render.env_rotation) request.sampling.turns_environment = false;
     // What reads transforms.json takes steps of a millimetre, unless it is told otherwise.
     if (request.dataset.formats.nerf && !request.depth_unit_mm) request.depth_unit_mm = 1;
     if (request.dataset.formats.bop && arguments.render.lens.distortion) {

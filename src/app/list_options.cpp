@@ -9,9 +9,12 @@
 #include "app/render_request.h"
 #include "session/image_names.h"
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <set>
 #include <system_error>
+#include <utility>
 
 namespace obscura::app {
 
@@ -65,8 +68,22 @@ std::string asset_name(const RenderArguments& arguments) {
     return std::filesystem::path(arguments.scene_file).stem().string();
 }
 
-bool is_given(const ProductArguments& product) {
-    return product.roll || product.zoom || product.elevation || product.azimuth;
+/// An option that is given and puts the camera elsewhere than the file; null: there is none.
+const char* placing_option(const ProductArguments& product, const CameraRequest& camera) {
+    const std::array<std::pair<const char*, bool>, 10> all = {
+        {{"--eye", camera.eye_m.has_value()},
+         {"--target", camera.target_m.has_value()},
+         {"--up", camera.up.has_value()},
+         {"--azimuth", product.azimuth.has_value()},
+         {"--elevation", product.elevation.has_value()},
+         {"--roll", product.roll.has_value()},
+         {"--zoom", product.zoom.has_value()},
+         {"--margin", product.margin.has_value()},
+         {"--frame", product.frame.has_value()},
+         {"--focus-node", product.focus_node.has_value()}}};
+    const auto* const found =
+        std::find_if(all.begin(), all.end(), [](const auto& entry) { return entry.second; });
+    return found == all.end() ? nullptr : found->first;
 }
 
 /// What does not go with a turn around the scene.
@@ -176,9 +193,12 @@ Result<void> complete_list(const RenderArguments& arguments, RenderRequest& requ
         return conflict("--manifest", "it is text, and by its name a picture; expected .jsonl");
     }
     if (!request.lists.is_asked()) return {};
-    if (request.lists.cameras && is_given(arguments.product)) {
-        return conflict("--cameras",
-                        "the file's cameras are not framed; leave out --azimuth and the like");
+    const char* const placing = placing_option(arguments.product, request.camera);
+    if (request.lists.cameras && placing != nullptr) {
+        return conflict(
+            "--cameras",
+            std::string("the file's cameras are neither placed nor framed; leave out ") + placing +
+                ", or leave out --cameras");
     }
     if (auto done = complete_turntable(arguments, request); !done) return done;
     if (request.standard_output) {

@@ -36,6 +36,10 @@ void print_error_line(const std::string& line) {
     std::fputs((line + "\n").c_str(), stderr);
 }
 
+bool ends_by_it(int signal) {
+    return signal == SIGINT || signal == SIGTERM;
+}
+
 void print_message(const LogMessage& message) {
     const std::string line =
         message.is_warning ? "WARN " + std::string(message.where) + ": " : std::string("INFO ");
@@ -84,19 +88,23 @@ int report_success(const std::string& where, const Log& log, const std::string& 
     return 0;
 }
 
-int report_stop(int signal, const std::string& where, const std::string& note, const Log& log) {
-    const bool ends_by_it = signal == SIGINT || signal == SIGTERM;
-    const int code = ends_by_it ? 128 + signal : static_cast<int>(ExitCode::stopped_early);
+StopReason stop_reason(int signal) {
+    const int code = ends_by_it(signal) ? 128 + signal : static_cast<int>(ExitCode::stopped_early);
     const char* const name = signal == SIGINT    ? "SIGINT"
                              : signal == SIGTERM ? "SIGTERM"
                                                  : "SIGUSR1";
-    print_error_line("ERROR " + escape_control(where) + ": stopped by " + name +
+    return {code, std::string("stopped by ") + name};
+}
+
+int report_stop(int signal, const std::string& where, const std::string& note, const Log& log) {
+    const StopReason reason = stop_reason(signal);
+    print_error_line("ERROR " + escape_control(where) + ": " + reason.text +
                      "; no further output was written and existing files are as they were" +
                      (note.empty() ? "" : "; " + escape_control(note)));
-    print_error_line(result_line(code, "E-STOPPED", where, log.warnings().size()));
+    print_error_line(result_line(reason.code, "E-STOPPED", where, log.warnings().size()));
     std::fflush(nullptr);
-    if (ends_by_it) end_by_signal(signal);
-    return code;
+    if (ends_by_it(signal)) end_by_signal(signal);
+    return reason.code;
 }
 
 }  // namespace obscura::app

@@ -37,6 +37,13 @@ int report_failure(const Error& error, const Log& log, const std::string& counts
 /// Prints the result line with code 0 unless quiet; returns 0.
 int report_success(const std::string& where, const Log& log, const std::string& counts = "");
 
+/// How a signal that stopped a command ends it: "stopped by SIGTERM" with the code 143.
+struct StopReason {
+    int code = 0;
+    std::string text;
+};
+StopReason stop_reason(int signal);
+
 /// Prints the reason and the result line with code 128 + signal, then lets the signal end the
 /// process. After SIGUSR1 the code is 75, and it comes back.
 ///

@@ -6,6 +6,7 @@
 #include "app/listed_poses.h"
 #include "app/outcome.h"
 #include "app/render_job.h"
+#include "app/signals.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "gltf/asset_files.h"
@@ -83,6 +84,17 @@ Result<void> note_files(Job& job, const std::vector<ListedImage>& images) {
         }
     }
     return {};
+}
+
+/// An error as the manifest has it: with the code by which a signal ends the command, and a text.
+Error told_error(Error error) {
+    if (error.id != "E-STOPPED") return error;
+    const int signal = received_stop_signal();
+    StopReason reason{static_cast<int>(error.code), "stopped on request"};
+    if (signal != 0) reason = stop_reason(signal);
+    error.code = static_cast<ExitCode>(reason.code);
+    error.message = reason.text + (error.message.empty() ? "" : "; " + error.message);
+    return error;
 }
 
 struct MadeImage {
@@ -187,7 +199,7 @@ private:
     Result<void> note_no_list(const Error& error) {
         const ListedImage image;
         ImageOutcome outcome{image, View{}};
-        outcome.error = error;
+        outcome.error = told_error(error);
         if (auto noted = note(job_.request, outcome); !noted) return noted;
         return fail(error);
     }
@@ -248,7 +260,7 @@ private:
     Result<void> note_end(const RenderRequest& request,
                           ImageOutcome& outcome,
                           const Result<void>& done) {
-        if (!done) outcome.error = done.error();
+        if (!done) outcome.error = told_error(done.error());
         return note(request, outcome);
     }
 

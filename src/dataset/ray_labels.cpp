@@ -122,8 +122,8 @@ PixelRect frame_of(const Scene& scene, const Camera& camera, const RenderOptions
 
 /// The node of a hit; -1: none, or one that the image does not show but what is behind it neither.
 int32_t node_of(const Scene& scene, const RowRays& rays, int i) {
-    constexpr uint8_t unseen = visibility_holdout | visibility_catcher;
-    if ((scene.visibility.of(rays.hit_primitive(i), rays.hit_instance(i)) & unseen) != 0) return -1;
+    const uint8_t flags = scene.visibility.of(rays.hit_primitive(i), rays.hit_instance(i));
+    if ((flags & visibility_no_object) != 0) return -1;
     const int32_t node = scene.primitives[static_cast<size_t>(rays.hit_primitive(i))].node;
     if (rays.hit_instance(i) < 0) return node;
     return std::max(node, scene.instances[static_cast<size_t>(rays.hit_instance(i))].node);

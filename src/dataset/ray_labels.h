@@ -3,11 +3,17 @@
 #pragma once
 
 #include "render/render.h"
+#include "scene/visibility.h"
 
 #include <cstdint>
 #include <vector>
 
 namespace obscura::dataset {
+
+/// Surfaces with any of these flags are no objects: the camera passes them, or they are not shown
+/// themselves.
+inline constexpr uint8_t visibility_no_object =
+    visibility_holdout | visibility_catcher | visibility_no_camera;
 
 /// The pixels where one node lies, seen or hidden: its silhouette.
 struct Silhouette {

@@ -153,7 +153,7 @@ Result<void> write_bop(const SceneFolder& scene,
             info.push_back({{"bbox_obj", box_or_none(object.at("box"))},
                             {"bbox_visib", box_or_none(object.at("box_visible"))},
                             {"px_count_all", object.at("pixels")},
-                            {"px_count_valid", object.at("pixels_inside")},
+                            {"px_count_valid", object.at("pixels_with_depth")},
                             {"px_count_visib", object.at("pixels_visible")},
                             {"visib_fract", object.at("visibility")}});
         }

@@ -5,6 +5,7 @@
 #include "base/atomic_file.h"
 #include "base/json/json.h"
 #include "base/json/json_file.h"
+#include "base/name_search.h"
 #include "base/parallel.h"
 #include "base/setting_names.h"
 #include "film/cryptomatte_names.h"
@@ -72,34 +73,55 @@ Result<void> write_segmentation(const fs::path& file, const RayLabels& rays) {
     return write_grey(file, rays, std::move(codes), bits);
 }
 
-/// Depths beyond what 16 bits hold become 0, unknown; returns how many.
-Result<size_t> write_depth(const fs::path& file, const RayLabels& rays, double unit_mm) {
-    UnsetArray<float> codes;
-    codes.resize(rays.depth_m.size());
-    size_t lost = 0;
-    for (size_t i = 0; i < codes.size(); ++i) {
-        const double code = std::round(static_cast<double>(rays.depth_m[i]) * mm_per_m / unit_mm);
+/// Depths in steps of the unit; 0: unknown. Those beyond what 16 bits hold are too.
+struct DepthCodes {
+    std::vector<uint16_t> by_pixel;
+    size_t too_far = 0;  ///< pixels
+};
+
+DepthCodes depth_codes(const RayLabels& rays, double unit_mm) {
+    DepthCodes out;
+    out.by_pixel.reserve(rays.depth_m.size());
+    for (const float depth_m : rays.depth_m) {
+        const double code = std::round(static_cast<double>(depth_m) * mm_per_m / unit_mm);
         const bool fits = code <= largest_code;
-        lost += fits ? 0 : 1;
-        codes[i] = static_cast<float>(fits ? std::max(code, 0.0) / largest_code : 0);
+        out.too_far += fits ? 0 : 1;
+        out.by_pixel.push_back(fits ? static_cast<uint16_t>(std::max(code, 0.0)) : uint16_t{0});
     }
+    return out;
+}
+
+Result<void> write_depth(const fs::path& file, const RayLabels& rays, const DepthCodes& depths) {
+    UnsetArray<float> values;
+    values.resize(depths.by_pixel.size());
+    std::transform(
+        depths.by_pixel.begin(), depths.by_pixel.end(), values.begin(), [](uint16_t code) {
+            return static_cast<float>(code / largest_code);
+        });
     constexpr int bits = 16;
-    if (auto written = write_grey(file, rays, std::move(codes), bits); !written)
-        return fail(written.error());
-    return lost;
+    return write_grey(file, rays, std::move(values), bits);
 }
 
 /// An object of an image, with its masks.
 struct MaskedObject {
     ObjectLabel label;
     Masks masks;
+    std::ptrdiff_t pixels_with_depth = 0;  ///< of all in the image, hidden or not
 };
 
-std::vector<MaskedObject> masked_objects(const RayLabels& rays, const Scene& scene) {
+std::vector<MaskedObject> masked_objects(const RayLabels& rays,
+                                         const DepthCodes& depths,
+                                         const Scene& scene) {
     std::vector<MaskedObject> out;
     for (const ObjectLabel& label : label_objects(rays, scene))
         out.push_back({label, {}});
-    parallel_for(out.size(), [&](size_t i) { out[i].masks = masks_of(rays, out[i].label); });
+    parallel_for(out.size(), [&](size_t i) {
+        MaskedObject& object = out[i];
+        object.masks = masks_of(rays, object.label);
+        const std::vector<uint32_t>& all = object.masks.all;
+        object.pixels_with_depth = std::count_if(
+            all.begin(), all.end(), [&](uint32_t pixel) { return depths.by_pixel[pixel] != 0; });
+    });
     return out;
 }
 
@@ -164,6 +186,7 @@ Json object_json(const RayLabels& rays,
             {"pixels", object.pixels},
             {"pixels_inside", object.pixels_inside},
             {"pixels_visible", object.visible_pixels},
+            {"pixels_with_depth", masked.pixels_with_depth},
             {"visibility", object.visibility()},
             {"mask", mask_json(rays, masked.masks.all)},
             {"mask_visible", mask_json(rays, masked.masks.visible)}};
@@ -183,15 +206,38 @@ Json camera_json(const RenderRequest& request, const ChosenCamera& chosen) {
     return out;
 }
 
-/// All nodes that something of the scene belongs to.
-Json objects_json(const Scene& scene, const std::vector<std::string>& paths) {
-    std::set<int32_t> nodes;
-    for_each_node_primitive(
-        scene, [&](int32_t node, int32_t /*instance*/, const Primitive& /*primitive*/) {
-            if (node >= 0) nodes.insert(node);
+/// Whether an object of one image may be none in another one: flags go by materials, and these by
+/// variants.
+bool objects_vary(const RenderRequest& request, const Scene& scene) {
+    if (!request.lists.sampling.chooses_variant || scene.info.variants.size() < 2) return false;
+    const std::vector<std::string>& materials = scene.material_names;
+    const auto& rules = request.load.visibility;
+    return std::any_of(rules.begin(), rules.end(), [&](const auto& rule) {
+        if ((rule.flag & visibility_no_object) == 0) return false;
+        return std::any_of(materials.begin(), materials.end(), [&](const std::string& name) {
+            return !name.empty() && fits_pattern(rule.pattern, name);
         });
+    });
+}
+
+/// All nodes that an image of the scene may show as objects.
+std::set<int32_t> object_nodes(const RenderRequest& request, const Scene& scene) {
+    // Models have one number in all images: what only some of them show is listed, too.
+    const uint8_t left_out = objects_vary(request, scene) ? uint8_t{0} : visibility_no_object;
+    std::set<int32_t> nodes;
+    for_each_node_primitive(scene, [&](int32_t node, int32_t instance, const Primitive& primitive) {
+        const auto number = static_cast<int32_t>(&primitive - scene.primitives.data());
+        const bool is_shown = (scene.visibility.of(number, instance) & left_out) == 0;
+        if (node >= 0 && is_shown) nodes.insert(node);
+    });
+    return nodes;
+}
+
+Json objects_json(const RenderRequest& request,
+                  const Scene& scene,
+                  const std::vector<std::string>& paths) {
     Json objects = Json::array();
-    for (const int32_t node : nodes) {
+    for (const int32_t node : object_nodes(request, scene)) {
         const auto number = static_cast<size_t>(node);
         const int32_t mesh = scene.info.node_meshes[number];
         const NodePlace& place = scene.node_places[number];
@@ -225,7 +271,7 @@ double depth_unit_mm(const RenderRequest& request, const Scene& scene) {
 }
 
 /// Once for all images: folders, names, and what is the same in all.
-Result<void> LabelWriter::begin(const Scene& scene) {
+Result<void> LabelWriter::begin(const RenderRequest& request, const Scene& scene) {
     if (!paths_.empty()) return {};
     for (const char* name : all_folders) {
         const bool is_of_masks = name == mask_folder || name == visible_mask_folder;
@@ -240,40 +286,39 @@ Result<void> LabelWriter::begin(const Scene& scene) {
                     "the folder cannot be made: " + error.message());
     }
     std::vector<std::string> paths = node_paths(scene.info);
-    auto written = write_json(options_.folder / objects_file, objects_json(scene, paths));
+    auto written = write_json(options_.folder / objects_file, objects_json(request, scene, paths));
     if (written) paths_ = std::move(paths);
     return written;
 }
 
-Result<void> LabelWriter::write_pixels(const LabelledImage& image,
-                                       const RayLabels& rays,
-                                       Log& log) const {
-    const std::string png = image.request.outputs.front().stem().string() + ".png";
-    const Result<size_t> lost = write_depth(options_.folder / depth_folder / png, rays, unit_mm_);
-    if (!lost) return fail(lost.error());
-    if (*lost > 0) {
-        log.warn((options_.folder / depth_folder / png).string(),
-                 fmt::format("{} pixels are further away than 65535 steps of {} mm; they are 0, "
-                             "unknown. {} takes larger steps",
-                             *lost,
-                             unit_mm_,
-                             setting("depth-unit")));
-    }
-    return write_segmentation(options_.folder / segmentation_folder / png, rays);
+void LabelWriter::warn_of_far_pixels(const fs::path& file, size_t count, Log& log) const {
+    if (count == 0) return;
+    log.warn(file.string(),
+             fmt::format("{} pixels are further away than 65535 steps of {} mm; they are 0, "
+                         "unknown. {} takes larger steps",
+                         count,
+                         unit_mm_,
+                         setting("depth-unit")));
 }
 
 Result<void> LabelWriter::write(const LabelledImage& image, Log& log) {
     const RenderRequest& request = image.request;
     const Scene& scene = image.prepared.scene();
     if (auto fits = check_segmentation(scene); !fits) return fits;
-    if (auto begun = begin(scene); !begun) return begun;
+    if (auto begun = begin(request, scene); !begun) return begun;
     unit_mm_ = options_.depth_unit_mm.value_or(depth_unit_mm(request, scene));
     const RayLabels rays = trace_labels(image.prepared, image.camera.camera, request.options);
-    const std::vector<MaskedObject> objects = masked_objects(rays, scene);
+    const DepthCodes depths = depth_codes(rays, unit_mm_);
+    const std::vector<MaskedObject> objects = masked_objects(rays, depths, scene);
     const fs::path color = request.outputs.front().filename();
     const std::string name = color.stem().string();
+    const std::string png = name + ".png";
     if (objects.empty()) log.warn(name, "the image shows no object; its labels are empty");
-    if (auto pixels = write_pixels(image, rays, log); !pixels) return pixels;
+    const fs::path depth_file = options_.folder / depth_folder / png;
+    if (auto written = write_depth(depth_file, rays, depths); !written) return written;
+    warn_of_far_pixels(depth_file, depths.too_far, log);
+    auto coded = write_segmentation(options_.folder / segmentation_folder / png, rays);
+    if (!coded) return coded;
     if (options_.writes_masks) {
         auto masks = write_masks(options_.folder, name, rays, objects, image.stop);
         if (!masks) return masks;
@@ -283,7 +328,6 @@ Result<void> LabelWriter::write(const LabelledImage& image, Log& log) {
     for (const MaskedObject& object : objects)
         list.push_back(object_json(
             rays, object, camera_from_world, paths_[static_cast<size_t>(object.label.node)]));
-    const std::string png = name + ".png";
     const Json document = {
         {"image", (fs::path(color_folder) / color).string()},
         {"depth", (fs::path(depth_folder) / png).string()},

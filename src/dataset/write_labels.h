@@ -46,8 +46,8 @@ public:
     bool has_written(const std::filesystem::path& image) const;
 
 private:
-    Result<void> write_pixels(const LabelledImage& image, const RayLabels& rays, Log& log) const;
-    Result<void> begin(const Scene& scene);
+    Result<void> begin(const RenderRequest& request, const Scene& scene);
+    void warn_of_far_pixels(const std::filesystem::path& file, size_t count, Log& log) const;
 
     LabelOptions options_;
     std::vector<std::string> paths_;  ///< of all nodes; empty: nothing has been written

@@ -84,7 +84,7 @@ TriangleLight light_record(const Emitter& e, int32_t triangle) {
     TriangleLight record = make_triangle_light(p[0], p[1], p[2]);
     std::copy_n(e.material.emission, 3, record.emission);
     record.coat = mean_coat(e.scene, e.material);
-    record.two_sided = (e.material.flags & material_double_sided) != 0 ? 1 : 0;
+    record.two_sided = glows_on_both_sides(e.material.flags) ? 1 : 0;
     const TextureSlot& slot = e.material.emissive_texture;
     const bool has_uv = e.primitive.uv_base[slot.uv_set] != no_attribute;
     record.texture = has_uv ? slot.texture : -1;

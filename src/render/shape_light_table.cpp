@@ -90,7 +90,7 @@ std::optional<ShapeLight> light_of(const Scene& scene,
     light->coat = mean_coat(scene, material);
     light->texture = material.emissive_texture.texture;
     std::copy_n(material.emissive_texture.uv_from_mesh, 6, light->uv_from_shape);
-    light->two_sided = (material.flags & material_double_sided) != 0 ? 1 : 0;
+    light->two_sided = glows_on_both_sides(material.flags) ? 1 : 0;
     return light;
 }
 

@@ -9,6 +9,7 @@
 #include "serve/connections.h"
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <exception>
 #include <new>
 
@@ -122,7 +123,8 @@ Result<void> Body::read(const ByteSink& sink) {
         return fail(ExitCode::bad_data, "E-SERVE-BODY", "body", "expected the data, not a form");
     if (is_read_) return {};
     // Said before more comes than the library takes, which would be an error without a reason.
-    if (request_.get_header_value<uint64_t>("Content-Length") > max_bytes_)
+    const std::string length = request_.get_header_value("Content-Length");  // digits, or nothing
+    if (std::strtoull(length.c_str(), nullptr, 10) > max_bytes_)
         return too_large("body", max_bytes_);
     is_read_ = true;
     Result<void> done;

@@ -327,6 +327,10 @@ Result<ChosenCamera> choose_camera(const FramedScene& framed,
 
     ChosenCamera out;
     out.settings = join_settings(*placed, request);
+    if (placed->settings.intrinsics && out.settings.intrinsics) {
+        const Result<void> fits = check_beside_intrinsics(request.settings, out.settings);
+        if (!fits) return fail(fits.error());
+    }
     out.size = {width_px, height_px};
     CameraBasis& basis = out.basis;
     basis.world_from_camera = placed->world_from_camera;

@@ -78,7 +78,8 @@ struct ChosenCamera {
 ///
 /// Errors  64 E-CAM-UNKNOWN, E-CAM-AMBIGUOUS (the message lists the names), 64 E-CAM-VIEW eye and
 ///         target are the same or up is parallel to the view, E-USAGE-CONFLICT the camera's model
-///         does not have what an option says, those of session/camera_build.h;
+///         or its intrinsics leave no place for what an option says, those of
+///         session/camera_build.h;
 ///         65 E-CAM-SINGULAR a node flattens its camera, 65 E-CAM-RANGE it does not fit 32-bit
 ///         floats; 67 E-IMG-* and E-APERTURE-* the image of an aperture
 Result<ChosenCamera> choose_camera(

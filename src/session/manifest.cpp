@@ -23,8 +23,9 @@ Json files_json(const RenderRequest& request, const ListedImage& image) {
     for (const std::filesystem::path& file : all_files(request, image)) {
         const std::optional<FileDigest> digest = digest_file(file);
         if (!digest) continue;
-        out.push_back(
-            {{"file", file.string()}, {"sha256", digest->sha256}, {"bytes", digest->bytes}});
+        Json one = {{"file", file.string()}, {"sha256", digest->sha256}, {"bytes", digest->bytes}};
+        if (file == image.segmentation) one["mask"] = true;  // by its name it is a picture
+        out.push_back(std::move(one));
     }
     return out;
 }

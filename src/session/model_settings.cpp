@@ -20,6 +20,24 @@ Result<void> check_model_has(const CameraSettings& settings, CameraModel model) 
                     " does not have it; leave it out or choose another " + setting("camera-model"));
 }
 
+Result<void> check_beside_intrinsics(const CameraSettings& asked, const CameraSettings& joined) {
+    // The f-number tells the opening as a part of the focal length, which the sensor may tell.
+    const bool needs_focal_length =
+        joined.model == CameraModel::thin_lens && joined.fstop && !joined.lens_radius_m;
+    const bool needs_sensor = needs_focal_length && !joined.focal_length_m;
+    const char* const idle = asked.shift                                   ? "shift"
+                             : asked.fisheye_fit                           ? "fisheye-fit"
+                             : asked.sensor_m && !needs_sensor             ? "sensor"
+                             : asked.focal_length_m && !needs_focal_length ? "focal-length"
+                                                                           : nullptr;
+    if (idle == nullptr) return {};
+    return fail(ExitCode::usage,
+                "E-USAGE-CONFLICT",
+                setting(idle),
+                "a camera given by fx, fy, cx and cy, or by K, does not have it: they say it "
+                "already; leave it out, or change them");
+}
+
 double max_fov_deg(const std::optional<CameraModel>& model, const CameraSettings& settings) {
     const CameraModel meant =
         model.value_or(implied_model(settings).value_or(CameraModel::pinhole));

@@ -12,6 +12,11 @@ namespace obscura {
 /// 64 E-USAGE-CONFLICT when a setting does not belong to a camera of that model.
 Result<void> check_model_has(const CameraSettings& settings, CameraModel model);
 
+/// 64 E-USAGE-CONFLICT when a setting is given that the camera's intrinsics leave without effect.
+///
+/// In      asked: over those of the camera; joined: both together, with the model
+Result<void> check_beside_intrinsics(const CameraSettings& asked, const CameraSettings& joined);
+
 /// The largest vertical angle of view that may be asked for; a fisheye's is that of its whole
 /// circle.
 ///

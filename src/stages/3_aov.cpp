@@ -89,8 +89,8 @@ OBSCURA_INLINE Vec3<Lanes> emission_color(const SceneView& scene,
     const HitGeometry& g = interaction.g;
     Vec3<Lanes> emission = g.material.vector<&Material::emission>();
     const LanesI flags = g.material.integer<&Material::flags>();
-    const Mask seen = (interaction.cos_front >= Lanes(0.0f)) |
-                      has_bits<Lanes>(flags, material_double_sided | material_unlit);
+    const Mask seen = (interaction.cos_front >= Lanes(0.0f)) | glow_on_both_sides(flags) |
+                      has_bits<Lanes>(flags, material_unlit);
     const auto slot = bilinear_slot<&Material::emissive_texture>(scene, interaction, {});
     if (any(slot.used)) {
         const Vec3<Lanes> texel = read_slot(scene, g, slot, interaction.filter).rgb;

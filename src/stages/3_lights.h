@@ -233,6 +233,22 @@ OBSCURA_INLINE LightLanes sample_light(const SceneView& scene,
     return out;
 }
 
+struct PlaceAndTime {
+    Vec3<Lanes> place;
+    Lanes time;
+};
+
+/// As sample_light, from another place. Apart from it, for few paths need both.
+inline __attribute__((noinline)) LightLanes sample_light_from(const SceneView& scene,
+                                                              const PlaceAndTime& from,
+                                                              const LightDraw& draw,
+                                                              const Vec3<Lanes>& texture) {
+    ShadingPoint point;
+    point.light_start = from.place;
+    point.time = from.time;
+    return sample_light(scene, point, draw, texture);
+}
+
 /// Transmittance of an emitter's coat as light sampling computes it: without the coat's texture and
 /// normal map. Lanes whose `light` is -1 get 1.
 OBSCURA_INLINE Lanes sampled_coat_transmittance(const SceneView& scene,

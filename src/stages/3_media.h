@@ -207,5 +207,16 @@ OBSCURA_INLINE void join_boundaries(const SceneView& scene,
     set_refraction(scene, shared.exist, here, there, b);
 }
 
+/// Attenuates the paths by the absorption of the medium they came through. In scattering media
+/// stage 2 has already done so.
+OBSCURA_INLINE void absorb(const SceneView& scene, Mask exists, Lanes distance, PathLanes& path) {
+    const LanesI medium = dominant_medium(path.medium_stack);
+    Mask inside = exists & (medium > LanesI(0));
+    if (none(inside)) return;
+    if (scene.scatters) inside = inside & (!scatters(read_scattering(scene, medium)));
+    const LanesU medium_stack = select(inside, path.medium_stack, LanesU(0U));
+    path.throughput = path.throughput * transmittance(scene, medium_stack, distance);
+}
+
 }  // namespace OBSCURA_ISA
 }  // namespace obscura

@@ -135,11 +135,19 @@ int shade_raycast(const SceneView& scene,
         const Vec3<Lanes> wo = to_local(s.frame, -path.direction);
         for (int k = range.first_light; k < range.first_light + range.lights; ++k) {
             const int centre = k - scene.lights.punctual_count;
-            const PunctualSample<Lanes> light =
-                centre < 0
-                    ? sample_punctual<Lanes>(
-                          scene.lights.punctual, LanesI(k), s.light_start, scene.lights.profiles)
-                    : sample_centre_light<Lanes>(scene.raycast.centres, centre, s.light_start);
+            const auto light_from = [&](const Vec3<Lanes>& from) {
+                return centre < 0
+                           ? sample_punctual<Lanes>(
+                                 scene.lights.punctual, LanesI(k), from, scene.lights.profiles)
+                           : sample_centre_light<Lanes>(scene.raycast.centres, centre, from);
+            };
+            Vec3<Lanes> start = s.light_start;
+            PunctualSample<Lanes> light = light_from(start);
+            if (s.any_layers) {  // what comes through the surface comes from the other side
+                const Mask in_front = dot(light.direction, s.ng) > Lanes(0.0f);
+                start = select(in_front, start, s.transmitted_start);
+                light = light_from(start);
+            }
             const Vec3<Lanes> wi = to_local(s.frame, light.direction);
             const Vec3<Lanes> radiance =
                 path.throughput * light.irradiance * evaluate_point(s, wo, wi).value_cos;
@@ -147,9 +155,6 @@ int shade_raycast(const SceneView& scene,
             const Mask useful = exists & (!s.unlit) & may_leave(s, reflected_side, wi) &
                                 (max_component(radiance) > Lanes(0.0f));
             if (none(useful)) continue;
-            const Vec3<Lanes> start =
-                s.any_layers ? select(reflected_side, s.light_start, s.transmitted_start)
-                             : s.light_start;
             shadows = append_shadows(columns.shadows,
                                      shadows,
                                      useful,

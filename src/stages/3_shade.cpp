@@ -195,6 +195,27 @@ OBSCURA_INLINE void add_emission(const Bounce& bounce,
         add_emitted_light(*bounce.light_paths, any_light, group.hit, path.slot, light);
 }
 
+/// Samples lamps behind surfaces that let light through anew, from where the shadow ray starts: a
+/// lamp that is near would else be blocked by itself, and one that lets light through would shine
+/// upon itself.
+OBSCURA_INLINE void sample_from_transmitted_side(const SceneView& scene,
+                                                 Mask active,
+                                                 const ShadedGroup& group,
+                                                 LightLanes& light) {
+    const ShadingPoint& s = group.s;
+    if (!s.any_layers) return;
+    const Mask behind = active & light.valid & s.layers.lets_through &
+                        (dot(light.direction, s.ng) <= Lanes(0.0f)) &
+                        (light.distance < Lanes(directional_distance_m));
+    if (none(behind)) return;
+    const Vec3<Lanes> place = s.transmitted_start, texture = group.random.texture;
+    const Lanes time = s.time;  // only copies have an address
+    const LightDraw draw = group.light;
+    LightLanes found = sample_light_from(scene, {place, time}, draw, texture);
+    found.valid = found.valid & (dot(found.direction, s.ng) <= Lanes(0.0f));
+    choose(light, behind, found);
+}
+
 /// Writes the shadow rays of one group; returns their new count.
 OBSCURA_INLINE int add_shadow_rays(const Bounce& bounce,
                                    const ShadeColumns& columns,
@@ -205,7 +226,8 @@ OBSCURA_INLINE int add_shadow_rays(const Bounce& bounce,
     const BatchSettings& batch = bounce.batch;
     const PathLanes& path = group.path;
     const ShadingPoint& s = group.s;
-    const LightLanes light = sample_light(scene, s, group.light, group.random.texture);
+    LightLanes light = sample_light(scene, s, group.light, group.random.texture);
+    sample_from_transmitted_side(scene, active, group, light);
     const Vec3<Lanes> wo = to_local(s.frame, -path.direction);
     const Vec3<Lanes> wi = to_local(s.frame, light.direction);
     const Mask reflected_side = dot(light.direction, s.ng) > Lanes(0.0f);
@@ -382,17 +404,6 @@ OBSCURA_INLINE void change_lobes(const PathLanes& path,
     change(hit, s.any_layers ? &s.layers : nullptr);
     s.bsdf = hit.bsdf;
     s.lobes = hit.lobes;
-}
-
-/// Attenuates the paths by the absorption of the medium they came through. In scattering media
-/// stage 2 has already done so.
-OBSCURA_INLINE void absorb(const SceneView& scene, Mask exists, Lanes distance, PathLanes& path) {
-    const LanesI medium = dominant_medium(path.medium_stack);
-    Mask inside = exists & (medium > LanesI(0));
-    if (none(inside)) return;
-    if (scene.scatters) inside = inside & (!scatters(read_scattering(scene, medium)));
-    const LanesU medium_stack = select(inside, path.medium_stack, LanesU(0U));
-    path.throughput = path.throughput * transmittance(scene, medium_stack, distance);
 }
 
 }  // namespace

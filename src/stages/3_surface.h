@@ -133,6 +133,12 @@ struct EmissionContext {
     Mask by_bsdf;  ///< with a direction that light sampling could have chosen too
 };
 
+/// As glows_on_both_sides.
+OBSCURA_INLINE Mask glow_on_both_sides(LanesI flags) {
+    return has_bits<Lanes>(flags, material_double_sided) &
+           (!has_bits<Lanes>(flags, material_glows_in_front));
+}
+
 /// Reads the surface's emission, and its index in the light table.
 ///
 /// In   s.unlit; s.any_layers, s.layers
@@ -144,7 +150,7 @@ OBSCURA_INLINE void read_emission(const SceneView& scene,
     s.emission = g.material.vector<&Material::emission>();
     const LanesI flags = g.material.integer<&Material::flags>();
     const Mask emits = (max_component(s.emission) > Lanes(0.0f)) &
-                       (context.front | s.unlit | has_bits<Lanes>(flags, material_double_sided));
+                       (context.front | s.unlit | glow_on_both_sides(flags));
     s.emission = select(emits, s.emission, splat3(Lanes(0.0f)));
     s.light = LanesI(-1);
     if (any(emits)) {

@@ -24,7 +24,14 @@ enum MaterialFlag : uint32_t {
     /// Base colour, metallic-roughness and normal texture have the same size, sampler and
     /// coordinates, so that one texel position serves all; absent ones share the coordinates
     material_textures_alike = 1U << 4,
+    /// The boundary of a medium, which rays meet from inside too: only its fronts glow
+    material_glows_in_front = 1U << 5,
 };
+
+/// Whether both sides glow, where there is emission.
+inline bool glows_on_both_sides(uint32_t flags) {
+    return (flags & (material_double_sided | material_glows_in_front)) == material_double_sided;
+}
 
 /// One glTF material. A table of these is read word by word by the shading lanes, so every member
 /// is 32 bits wide and there is no padding.

@@ -335,6 +335,28 @@ TEST_F(Batch, OneFailureDoesNotEndTheRest) {
     EXPECT_THAT(page, Not(HasSubstr("<b>")));
 }
 
+TEST_F(Batch, AMaskIsNoImageOfTheContactSheet) {
+    json job = small_job();
+    job["looks"] = {"a"};
+    job["contact_sheet"] = "index.html";
+    job["outputs"] = json::parse(R"([{"file": "out/{asset}.exr",
+                                      "options": {"segmentation": "out/{asset}_seg.png"}}])");
+    expect_result(batch(job), 0, "OK");
+    EXPECT_TRUE(fs::exists(folder_ / "out/box_seg.png"));
+    std::string page = read_text(folder_ / "index.html");
+    EXPECT_THAT(page, HasSubstr("no file that a browser shows"));
+    EXPECT_THAT(page, Not(HasSubstr("_seg.png")));
+    for (const json& file : lines("out.jsonl")[0].at("files")) {
+        const bool is_mask = file.at("file").get<std::string>().ends_with(".png");
+        EXPECT_EQ(file.value("mask", false), is_mask) << file;
+    }
+    job["outputs"][0]["file"] = "out/{asset}.png";
+    expect_result(batch(job), 0, "OK");
+    page = read_text(folder_ / "index.html");
+    EXPECT_THAT(page, HasSubstr("src=\"out/box.png\""));
+    EXPECT_THAT(page, Not(HasSubstr("_seg.png")));
+}
+
 TEST_F(Batch, MistakesHaveTheirPlace) {
     const auto refused = [&](const char* patch, int code, const char* id, const char* place) {
         json job = small_job();
@@ -371,6 +393,14 @@ TEST_F(Batch, MistakesHaveTheirPlace) {
             64,
             "E-USAGE-CONFLICT",
             "job.json#/outputs/0: out/a.png: with --frames a file's name must");
+    refused(R"({"outputs": ["a.png", 3]})",
+            65,
+            "E-JSON-TYPE",
+            "job.json#/outputs/1: this is 3; it must be a string or an object");
+    refused(R"({"assets": [["in/box.gltf"]]})",
+            65,
+            "E-JSON-TYPE",
+            "job.json#/assets/0: this is an array; it must be a string or an object");
     refused(R"({"contact_sheet": "a.png"})", 65, "E-JOB-VALUE", "job.json#/contact_sheet");
     refused(R"({"contact_sheet": "out.jsonl"})", 65, "E-JOB-VALUE", "job.json#/contact_sheet");
     expect_result(run({"batch", "none.json"}), 67, "E-JOB-MISSING");

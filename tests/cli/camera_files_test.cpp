@@ -190,6 +190,32 @@ TEST_F(CameraFiles, PoseAndPixelsMayBeWrittenInOtherWays) {
     EXPECT_EQ(shot("box.gltf", options).spec.get_string_attribute("obscura:projection"), "fisheye");
 }
 
+TEST_F(CameraFiles, WhatIntrinsicsSayNoOptionSaysAgain) {
+    const auto with = [&](const Strings& options) {
+        return render("box.gltf", joined({"--camera-json", "c.json"}, options));
+    };
+    const auto refused = [&](const Strings& options) {
+        const ProgramRun got = with(options);
+        expect_result(got, 64, "E-USAGE-CONFLICT");
+        EXPECT_THAT(got.err, HasSubstr("ERROR " + options.front() + ": a camera given by fx"));
+    };
+    folder_.write("c.json", vision_camera().dump());
+    refused({"--shift", "0.1,0"});
+    refused({"--focal-length", "50"});
+    refused({"--sensor", "36x24", "--focal-length", "50"});
+    refused({"--sensor", "36x24", "--focal-length", "50", "--fstop", "2"});
+    refused({"--focal-length", "50", "--lens-radius", "0.1"});
+    // The opening is of the focal length, and --fov takes the place of the intrinsics.
+    expect_result(with({"--focal-length", "50", "--fstop", "2"}), 0, "OK");
+    expect_result(with({"--sensor", "36x24", "--fstop", "2"}), 0, "OK");
+    expect_result(with({"--fov", "40", "--shift", "0.1,0"}), 0, "OK");
+    json fisheye = vision_camera();
+    fisheye["model"] = "fisheye";
+    folder_.write("c.json", fisheye.dump());
+    refused({"--shift", "0.1,0"});
+    refused({"--fisheye-fit", "diagonal"});
+}
+
 TEST_F(CameraFiles, FaultsOfTheJsonAreNamed) {
     const json good = vision_camera();
     expect_bad_json(good, {{"focal", 3}}, "E-CAM-KEY");

@@ -4,6 +4,7 @@
 #include "support/text_files.h"
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 namespace obscura {
 namespace {
@@ -15,7 +16,7 @@ using testing::Not;
 using Texts = std::vector<std::string>;
 using Rows = std::vector<std::vector<double>>;
 
-/// Two boxes of one mesh, the second one half as large and turned; two variants.
+/// Two boxes of one mesh, the second one half as large and turned.
 class DatasetCommand : public Cli {
 protected:
     void SetUp() override {
@@ -135,6 +136,99 @@ TEST_F(DatasetCommand, MasksIdsAndCountsAreOfOnePiece) {
         }
     }
     EXPECT_GT(hidden, 0);
+}
+
+TEST_F(DatasetCommand, ValidPixelsAreThoseWithADepth) {
+    expect_result(dataset({"--write", "bop", "-o", "d", "--count", "1"}), 0, "OK");
+    std::vector<int> known = codes("d/000000/depth/000000.png", 16);
+    std::erase(known, 0);
+    ASSERT_FALSE(known.empty());
+    const auto [nearest, farthest] = std::minmax_element(known.begin(), known.end());
+    const double unit_mm = read("d/000000/scene_camera.json").at("0").at("depth_scale");
+    const double middle_mm = 0.5 * (*nearest + *farthest) * unit_mm;
+    const std::string reaches_middle = std::to_string(middle_mm / 65535);
+    const std::string rounds_to_0 = "1000000";
+    for (const std::string& step : {reaches_middle, rounds_to_0}) {
+        const Texts options = {"--write", "bop", "-o", step, "--count", "1", "--depth-unit", step};
+        expect_result(dataset(options), 0, "OK");
+        const std::vector<int> depths = codes(step + "/000000/depth/000000.png", 16);
+        const json infos = read(step + "/000000/scene_gt_info.json").at("0");
+        std::ptrdiff_t inside = 0;
+        std::ptrdiff_t valid = 0;
+        for (const int object : {0, 1}) {
+            const std::vector<int> mask =
+                codes(step + "/000000/mask/000000_00000" + std::to_string(object) + ".png", 8);
+            std::ptrdiff_t with_depth = 0;
+            for (size_t i = 0; i < mask.size(); ++i)
+                with_depth += mask[i] != 0 && depths[i] != 0 ? 1 : 0;
+            EXPECT_EQ(infos[static_cast<size_t>(object)].at("px_count_valid"), with_depth);
+            inside += std::count(mask.begin(), mask.end(), 255);
+            valid += with_depth;
+        }
+        EXPECT_LT(valid, inside) << step;
+        EXPECT_EQ(valid > 0, step == reaches_middle);
+    }
+}
+
+TEST_F(DatasetCommand, OptionsFixWhatTheyName) {
+    const auto turns_of = [&](const std::string& below) {
+        std::set<double> turns;
+        for (const char* name : {"000000", "000001", "000002", "000003"}) {
+            const json labels = read(below + "/pair/labels/" + name + ".json");
+            turns.insert(labels.at("environment_rotation").get<double>());
+        }
+        return turns;
+    };
+    const Texts varied = {"--vary", "environment", "--env", "studio"};
+    expect_result(dataset(joined(varied, {"-o", "turned"})), 0, "OK");
+    EXPECT_EQ(turns_of("turned").size(), 4U);
+    expect_result(dataset(joined(varied, {"-o", "fixed", "--env-rotation", "20"})), 0, "OK");
+    EXPECT_EQ(turns_of("fixed"), std::set<double>{20});
+}
+
+TEST_F(DatasetCommand, WhatIsNoObjectIsNotListed) {
+    for (const std::string option : {"--holdout", "--catcher", "--camera-invisible"}) {
+        const std::string d = option.substr(2);
+        expect_result(dataset({"--write", "bop", "-o", d, option, "big"}), 0, "OK");
+        const json objects = read(d + "/000000/objects.json").at("objects");
+        ASSERT_EQ(objects.size(), 1U) << option;
+        EXPECT_EQ(objects[0].at("node"), "/small");
+        const json models = read(d + "/objects.json").at("objects");
+        ASSERT_EQ(models.size(), 1U) << option;
+        EXPECT_EQ(models[0].at("nodes"), json::array({"/small"}));
+        EXPECT_EQ(read(d + "/000000/labels/000000.json").at("objects").size(), 1U) << option;
+        for (const json& poses : read(d + "/000000/scene_gt.json")) {
+            for (const json& pose : poses)
+                EXPECT_EQ(pose.at("obj_id"), 1) << option;
+        }
+    }
+    expect_result(dataset({"-o", "d", "--no-shadow", "big"}), 0, "OK");
+    EXPECT_EQ(read("d/objects.json").at("objects").size(), 2U);
+}
+
+/// A holdout by a material that nodes have in one of two variants.
+TEST_F(DatasetCommand, WhatAnyVariantShowsIsListed) {
+    json scene = json::parse(read_text(folder_ / "pair.gltf"));
+    scene["extensionsUsed"].push_back("KHR_materials_variants");
+    scene["extensions"]["KHR_materials_variants"]["variants"] = {{{"name", "A"}}, {{"name", "B"}}};
+    scene["materials"].push_back({{"name", "Glass"}});
+    scene["meshes"][0]["primitives"][0]["extensions"]["KHR_materials_variants"]["mappings"] =
+        json::parse(R"([{"material": 1, "variants": [0]}])");
+    folder_.write("pair.gltf", scene.dump());
+    const Texts options = {"--write", "bop", "--count", "8", "--holdout", "Glass", "-o"};
+    expect_result(dataset(joined(options, {"any"})), 0, "OK");
+    std::set<size_t> counts;
+    for (const json& poses : read("any/000000/scene_gt.json")) {
+        counts.insert(poses.size());
+        for (const json& pose : poses)
+            EXPECT_GT(pose.at("obj_id"), 0);
+    }
+    EXPECT_EQ(counts, (std::set<size_t>{0, 2})) << "images of both variants";
+    EXPECT_EQ(read("any/000000/objects.json").at("objects").size(), 2U);
+    expect_result(dataset(joined(options, {"one", "--variant", "A"})), 0, "OK");
+    EXPECT_TRUE(read("one/000000/objects.json").at("objects").empty());
+    expect_result(dataset({"-o", "node", "--holdout", "big"}), 0, "OK");
+    EXPECT_EQ(read("node/pair/objects.json").at("objects").size(), 1U);
 }
 
 TEST_F(DatasetCommand, CocoAndNerfNameTheImages) {

@@ -101,6 +101,21 @@ TEST_F(ManyImages, CamerasAreThoseOfSingleCommands) {
     EXPECT_THAT(got.err, HasSubstr("Front"));
 }
 
+TEST_F(ManyImages, TheFilesCamerasAreNeitherPlacedNorFramed) {
+    for (const Texts& placing : {Texts{"--eye", "1,2,3"},
+                                 Texts{"--target", "1,0,0"},
+                                 Texts{"--up", "1,0,0"},
+                                 Texts{"--azimuth", "20"},
+                                 Texts{"--margin", "3"},
+                                 Texts{"--frame", "sphere"},
+                                 Texts{"--focus-node", "*"}}) {
+        expect_refused(joined({"--cameras", "all", "-o", "x_{view}.png"}, placing),
+                       "E-USAGE-CONFLICT",
+                       "leave out " + placing.front());
+    }
+    EXPECT_FALSE(fs::exists(folder_ / "x_Front.png"));
+}
+
 TEST_F(ManyImages, ATurntableGoesRoundAtOneScale) {
     const Texts turn = {"--turntable", "4", "--azimuth", "10", "-o", "turn.##.exr"};
     expect_result(render("box.gltf", turn), 0, "OK");
@@ -282,6 +297,17 @@ TEST_F(ManyImages, TakeTheMemoryOfOneImageWhereThereIsNoMore) {
     EXPECT_THAT(narrow.err, HasSubstr("the image before is written first"));
     const ProgramRun wide = turntable(program_mebibytes + 2 * film_mebibytes + 10);
     EXPECT_THAT(wide.err, Not(HasSubstr("memory lacks")));
+}
+
+TEST_F(ManyImages, AViewWithIntrinsicsHasNoShift) {
+    folder_.write("views.json", R"({"views": [{"name": "own", "azimuth": 3},
+        {"name": "cv", "K": [[40, 0, 16], [0, 40, 8], [0, 0, 1]], "t": [0, 0, 4]}]})");
+    const ProgramRun got =
+        render("quad.gltf", {"--views", "views.json", "--shift", "0.1,0", "-o", "{view}.exr"});
+    expect_result(got, 64, "E-USAGE-CONFLICT");
+    EXPECT_THAT(got.err, HasSubstr("--shift"));
+    EXPECT_TRUE(fs::exists(folder_ / "own.exr"));
+    EXPECT_FALSE(fs::exists(folder_ / "cv.exr"));
 }
 
 TEST_F(ManyImages, WhatAllNeedEndsTheCommand) {

@@ -1,6 +1,8 @@
 // tests/cli/signals_test.cpp - stopped by a signal: the right status, and old outputs as they were.
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/cli.h"
+#include <map>
+#include <nlohmann/json.hpp>
 
 namespace obscura {
 namespace {
@@ -124,6 +126,24 @@ TEST_F(Signals, WithACheckpointEachOneKeepsWhatIsFinished) {
         EXPECT_THAT(got.err, HasSubstr("old.exr.checkpoint holds "));
         EXPECT_TRUE(std::filesystem::remove(folder_ / "old.exr.checkpoint"));
         expect_untouched();
+    }
+}
+
+TEST_F(Signals, TheManifestHasTheCommandsExitCode) {
+    const std::map<int, std::string> names = {
+        {SIGTERM, "SIGTERM"}, {SIGINT, "SIGINT"}, {SIGUSR1, "SIGUSR1"}};
+    for (const auto& [signal, name] : names) {
+        ProgramSetup program = long_render();
+        program.arguments = joined(program.arguments, {"--checkpoint", "--manifest", "m.jsonl"});
+        send_at(program, signal, "Progress: [1-9]");
+        const ProgramRun got = run_program_with(program);
+        EXPECT_EQ(got.code, signal == SIGUSR1 ? 75 : 128 + signal);
+        const auto line = nlohmann::json::parse(read_whole_file(folder_ / "m.jsonl"));
+        EXPECT_EQ(line.at("exit_code"), got.code);
+        EXPECT_EQ(line.at("id"), "E-STOPPED");
+        EXPECT_THAT(line.at("message").get<std::string>(),
+                    HasSubstr("stopped by " + name + "; old.exr.checkpoint holds "));
+        EXPECT_TRUE(std::filesystem::remove(folder_ / "old.exr.checkpoint"));
     }
 }
 

@@ -70,6 +70,12 @@ TEST(Materials, FactorsAndFlags) {
     EXPECT_EQ(material.normal_scale, -2);
     EXPECT_EQ(material.flags, material_alpha_mask | material_double_sided);
     EXPECT_EQ(material_of({{"alphaMode", "BLEND"}}).flags, material_alpha_blend);
+    json solid = json::parse(R"({
+        "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1},
+                       "KHR_materials_volume": {"thicknessFactor": 1}}})");
+    EXPECT_EQ(material_of(solid).flags, material_double_sided | material_glows_in_front);
+    solid["doubleSided"] = true;
+    EXPECT_EQ(material_of(solid).flags, material_double_sided);
     const Material unlit = material_of(json::parse(R"({
         "emissiveFactor": [0.5, 0.25, 1], "extensions": {"KHR_materials_unlit": {}}})"));
     EXPECT_EQ(unlit.flags, material_unlit);

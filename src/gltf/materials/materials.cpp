@@ -110,6 +110,7 @@ MaterialChoice material_for_points_lines(MaterialTable& table,
         values.normal_texture = {};  // there are no tangents
         if (shading.has_normals) {
             values.flags |= material_double_sided;
+            values.flags &= ~static_cast<uint32_t>(material_glows_in_front);
             layers.medium = 0;
         } else {
             values.flags |= material_unlit;

@@ -180,7 +180,9 @@ GltfMaterial finish_material(const MaterialFactors& from, Document& document) {
     out.layers = finish_layers(factors);
     finish_specular_glossiness(factors, document, out);
     // A solid has an inside, and a camera in it must see its far boundary.
-    if (out.layers && out.layers->medium != 0) out.values.flags |= material_double_sided;
+    const bool is_single_sided = (out.values.flags & material_double_sided) == 0;
+    if (out.layers && out.layers->medium != 0 && is_single_sided)
+        out.values.flags |= material_double_sided | material_glows_in_front;
     return out;
 }
 
