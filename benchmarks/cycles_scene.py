@@ -132,9 +132,10 @@ def add_scattering(gltf):
         material = bpy.data.materials.get(description.get("name", ""))
         if scatter is None or material is None:
             continue
-        volume = extensions["KHR_materials_volume"]
+        volume = extensions.get("KHR_materials_volume", {})
         distance = volume.get("attenuationDistance", math.inf)
-        extinction = [-math.log(max(c, 1e-6)) / distance for c in volume["attenuationColor"]]
+        color = volume.get("attenuationColor", [1, 1, 1])
+        extinction = [-math.log(max(c, 1e-6)) / distance for c in color]
         if "KHR_materials_diffuse_transmission" in extensions:
             add_subsurface(material, scatter, extinction)
         elif extensions.get("KHR_materials_ior", {}).get("ior", 1.5) == 1:
@@ -144,14 +145,14 @@ def add_scattering(gltf):
 def add_subsurface(material, scatter, extinction):
     inputs = material.node_tree.nodes["Principled BSDF"].inputs
     color = "Subsurface Color" if "Subsurface Color" in inputs else "Base Color"  # since 4.0
-    inputs[color].default_value = [*scatter["multiscatterColor"], 1]
+    inputs[color].default_value = [*scatter.get("multiscatterColor", [0, 0, 0]), 1]
     inputs["Subsurface" if "Subsurface" in inputs else "Subsurface Weight"].default_value = 1
-    inputs["Subsurface Radius"].default_value = [1 / e for e in extinction]
+    inputs["Subsurface Radius"].default_value = [1 / max(e, 1e-6) for e in extinction]
     inputs["Subsurface Anisotropy"].default_value = scatter.get("scatterAnisotropy", 0)
 
 
 def add_medium(material, scatter, extinction):
-    albedo = [single_scatter_albedo(c) for c in scatter["multiscatterColor"]]
+    albedo = [single_scatter_albedo(c) for c in scatter.get("multiscatterColor", [0, 0, 0])]
     scattering = [a * e for a, e in zip(albedo, extinction)]
     absorption = [e - s for e, s in zip(extinction, scattering)]
     tree = material.node_tree

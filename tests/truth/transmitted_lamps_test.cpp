@@ -49,12 +49,11 @@ void add_lamp(SceneBuilder& builder, float depth, bool in_pieces) {
     }
 }
 
-Mean seen_from_front(Scene scene, int bounces = 8) {
+Mean seen_from_front(Scene scene) {
     constexpr int side = 8;
     RenderOptions options;
     options.width = options.height = side;
     options.samples_per_pixel = 1024;
-    options.max_bounces = bounces;
     const Camera camera = look_at({0, 0, 2}, {0, 0, 0}, 1e-4f, side, side);
     return film_mean(render_scene(std::move(scene), {}, camera, options).film);
 }

@@ -78,14 +78,12 @@ int32_t ShapeBuilder::choose_material(int material, bool double_sided) {
     const int32_t chosen = choice.index;
     const auto index = static_cast<size_t>(chosen);
     const uint32_t flags = materials_.records[index].flags;
-    constexpr uint32_t one_sided = material_glows_in_front;
-    if (!double_sided || (flags & (material_double_sided | one_sided)) == material_double_sided)
-        return chosen;
+    if (!double_sided || glows_on_both_sides(flags)) return chosen;
     const auto [entry, is_new] =
         double_sided_.try_emplace(chosen, static_cast<int32_t>(materials_.records.size()));
     if (is_new) {
         Material copy = materials_.records[index];
-        copy.flags = (flags | material_double_sided) & ~one_sided;
+        copy.flags = (flags | material_double_sided) & ~uint32_t{material_glows_in_front};
         const int added = add_copy(materials_, chosen, copy, materials_.layers[index]);
         materials_.used[static_cast<size_t>(added)] = 1;
     }
