@@ -17,13 +17,6 @@ namespace obscura {
 
 namespace {
 
-Rgb difference(const Rgb& a, const Rgb& b, const PlaneSize& size) {
-    Rgb out;
-    for (size_t c = 0; c < 3; ++c)
-        out[c] = size.plane([&](int x, int y) { return a[c].row(y)[x] - b[c].row(y)[x]; });
-    return out;
-}
-
 float mean_of(const Rgb& from, int x, int y) {
     return (from[0].row(y)[x] + from[1].row(y)[x] + from[2].row(y)[x]) * (1.0f / 3.0f);
 }
@@ -47,15 +40,46 @@ GiveBack plan_give_back(const Rgb& taken,
     return GiveBack(taken, light, std::move(receives));
 }
 
+/// What remains of light that is taken from the pixels that take part.
+Rgb taken_light(const Rgb& before, const Rgb& after, const Plane& share) {
+    const PlaneSize size{share.width(), share.height()};
+    Rgb out;
+    for (size_t c = 0; c < 3; ++c) {
+        out[c] = size.plane([&](int x, int y) {
+            return share.row(y)[x] > 0 ? before[c].row(y)[x] - after[c].row(y)[x] : 0.0f;
+        });
+    }
+    return out;
+}
+
+/// By how much the filtered light of every layer is multiplied in a pixel, so that the beauty gets
+/// what is returned to it.
+Rgb gains(const Rgb& filtered, const Rgb& returned) {
+    const PlaneSize size{filtered[0].width(), filtered[0].height()};
+    Rgb out;
+    for (size_t c = 0; c < 3; ++c) {
+        out[c] = size.plane([&](int x, int y) {
+            const float light = filtered[c].row(y)[x];
+            return light > 0 ? std::max(1 + returned[c].row(y)[x] / light, 0.0f) : 1.0f;
+        });
+    }
+    return out;
+}
+
 /// Writes a layer's colours where there is alpha.
-void write(const Rgb& filtered, const Rgb& returned, const Plane& share, const LightImage& to) {
+void write(const Rgb& filtered,
+           const Rgb& gain,
+           const Rgb& returned,
+           const Plane& share,
+           const LightImage& to) {
     const PlaneSize size{share.width(), share.height()};
     for_rows(size.height, [&](int y) {
         for (int x = 0; x < size.width; ++x) {
             if (share.row(y)[x] == 0) continue;
             float* const pixel = &to.pixels[size.index(x, y) * to.channels];
-            for (size_t c = 0; c < 3; ++c)
-                pixel[c] = filtered[c].row(y)[x] + returned[c].row(y)[x];
+            for (size_t c = 0; c < 3; ++c) {
+                pixel[c] = filtered[c].row(y)[x] * gain[c].row(y)[x] + returned[c].row(y)[x];
+            }
         }
     });
 }
@@ -78,18 +102,19 @@ DenoiseReport denoise(const DenoiseInput& input,
     if (images.size() > 1) layers = filter_layers(frames, candidates, mix);
     layers.insert(layers.begin(), mixed_halves(guides, candidates, mix, input.first_share));
     std::optional<GiveBack> give_back;
+    Rgb gain;
     for (size_t i = 0; i < images.size(); ++i) {
         // A pixel without alpha reflects nothing here, and is not written.
         const Rgb filtered = product(layers[i], reflected);
         const Rgb before = size.rgb(images[i].pixels, images[i].channels);
-        Rgb taken = difference(before, filtered, size);
-        for (Plane& channel : taken) {
-            channel = size.plane([&](int x, int y) {
-                return guides.share.row(y)[x] > 0 ? channel.row(y)[x] : 0.0f;
-            });
+        const Rgb lowered = product(before, frames[0].kept);
+        if (!give_back) {
+            const Rgb taken = taken_light(before, filtered, guides.share);
+            give_back = plan_give_back(taken, filtered, guides, mix, reflected);
+            gain = gains(filtered, give_back->spread(taken_light(lowered, filtered, guides.share)));
         }
-        if (!give_back) give_back = plan_give_back(taken, filtered, guides, mix, reflected);
-        write(filtered, give_back->spread(taken), guides.share, images[i]);
+        const Rgb of_outliers = give_back->spread(taken_light(before, lowered, guides.share));
+        write(filtered, gain, of_outliers, guides.share, images[i]);
     }
     return {frames[0].outlier_share};
 }

@@ -174,10 +174,10 @@ Frame make_frame(const DenoiseInput& input, std::span<const LightImage> layers) 
     }
     add_variance(size, guides);
     add_brightness(size, guides);
-    const Rgb kept = kept_shares(raw, guides, input.first_share, size);
+    out.kept = kept_shares(raw, guides, input.first_share, size);
     for (const LightImage& layer : layers) {
         const Rgb light = divided(size.rgb(layer.pixels, layer.channels), out.reflected, size);
-        out.layers.push_back(product(light, kept));
+        out.layers.push_back(product(light, out.kept));
     }
     return out;
 }

@@ -35,6 +35,7 @@ Rgb product(const Rgb& a, const Rgb& b);
 struct Frame {
     FilterGuides guides;
     Rgb reflected;            ///< by what colours are divided
+    Rgb kept;                 ///< share of a pixel's light that outliers leave
     std::vector<Rgb> layers;  ///< shares of the light, divided and lowered as the colours are
     double outlier_share = 0;
 };

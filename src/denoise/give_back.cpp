@@ -22,21 +22,18 @@ size_t cell_count(int width, int height) {
     return static_cast<size_t>(width) * static_cast<size_t>(height);
 }
 
-/// The value between the middles of four cells.
+/// The two columns of cells whose middles are around a pixel's, and the share of each; or rows.
 struct Between {
-    size_t cells[4];
-    double shares[4];
+    size_t cells[2];
+    double shares[2];
 
-    Between(double x, double y, int width, int height) {
-        const double left = std::floor(x);
-        const double top = std::floor(y);
-        for (int i = 0; i < 4; ++i) {
-            const double column = left + static_cast<double>(i & 1);
-            const double row = top + static_cast<double>(i >> 1);
-            shares[i] = (1 - std::abs(x - column)) * (1 - std::abs(y - row));
-            const int in_x = std::clamp(static_cast<int>(column), 0, width - 1);
-            const int in_y = std::clamp(static_cast<int>(row), 0, height - 1);
-            cells[i] = cell_number(in_x, in_y, width);
+    Between(int pixel, int cell_size, int count) {
+        const double at = (pixel + 0.5) / cell_size - 0.5;
+        const double before = std::floor(at);
+        for (int i = 0; i < 2; ++i) {
+            const double cell = before + i;
+            shares[i] = 1 - std::abs(at - cell);
+            cells[i] = static_cast<size_t>(std::clamp(static_cast<int>(cell), 0, count - 1));
         }
     }
 };
@@ -94,6 +91,7 @@ GiveBack::GiveBack(const Rgb& taken, const Plane& light, Plane receives)
                 (receives_.height() + smallest_cell - 1) / smallest_cell,
                 {},
                 {},
+                {},
                 {}};
     level.light.resize(cell_count(level.width, level.height));
     level.receives = level.light;
@@ -108,6 +106,7 @@ GiveBack::GiveBack(const Rgb& taken, const Plane& light, Plane receives)
     CellSums sums = gather(taken);
     for (;;) {
         Level& now = levels_.back();
+        now.receivers = receivers(now);
         const bool last = now.width == 1 && now.height == 1;
         for (size_t i = 0; i < sums.size(); ++i) {
             const double all = std::abs(sums[i][0] + sums[i][1] + sums[i][2]) / 3;
@@ -121,30 +120,57 @@ GiveBack::GiveBack(const Rgb& taken, const Plane& light, Plane receives)
                            half_up(now.height),
                            merged(now.light, now),
                            merged(now.receives, now),
+                           {},
                            {}});
     }
 }
 
-void GiveBack::add(const Level& level, const CellSums& sums, Rgb& out) const {
+std::vector<double> GiveBack::receivers(const Level& level) const {
+    const auto width = static_cast<size_t>(level.width);
+    const auto rows = static_cast<size_t>(receives_.height());
+    std::vector<double> of_rows(rows * width);
     for_rows(receives_.height(), [&](int y) {
+        double* const cells = &of_rows[static_cast<size_t>(y) * width];
+        for (int x = 0; x < receives_.width(); ++x) {
+            const Between columns(x, level.size, level.width);
+            for (size_t i = 0; i < 2; ++i)
+                cells[columns.cells[i]] += columns.shares[i] * receives_.row(y)[x];
+        }
+    });
+    // In order: sums are the same for any number of threads.
+    std::vector<double> out(cell_count(level.width, level.height));
+    for (size_t y = 0; y < rows; ++y) {
+        const Between between(static_cast<int>(y), level.size, level.height);
+        for (size_t i = 0; i < 2; ++i) {
+            for (size_t x = 0; x < width; ++x)
+                out[between.cells[i] * width + x] += between.shares[i] * of_rows[y * width + x];
+        }
+    }
+    return out;
+}
+
+void GiveBack::add(const Level& level, const CellSums& sums, Rgb& out) const {
+    CellSums given = sums;
+    for (size_t cell = 0; cell < sums.size(); ++cell) {
+        const double all = level.receivers[cell];
+        for (double& channel : given[cell])
+            channel *= all > 0 ? level.kept[cell] / all : 0.0;
+    }
+    for_rows(receives_.height(), [&](int y) {
+        const Between rows(y, level.size, level.height);
         for (int x = 0; x < receives_.width(); ++x) {
             const float receives = receives_.row(y)[x];
             if (!(receives > 0)) continue;
-            const Between between((x + 0.5) / level.size - 0.5,
-                                  (y + 0.5) / level.size - 0.5,
-                                  level.width,
-                                  level.height);
-            std::array<double, 3> given = {};
-            double receivers = 0;
+            const Between columns(x, level.size, level.width);
+            std::array<double, 3> sum = {};
             for (size_t i = 0; i < 4; ++i) {
-                const size_t cell = between.cells[i];
-                receivers += between.shares[i] * level.receives[cell];
+                const size_t row = rows.cells[i / 2] * static_cast<size_t>(level.width);
+                const double share = rows.shares[i / 2] * columns.shares[i % 2];
                 for (size_t c = 0; c < 3; ++c)
-                    given[c] += between.shares[i] * level.kept[cell] * sums[cell][c];
+                    sum[c] += share * given[row + columns.cells[i % 2]][c];
             }
-            for (size_t c = 0; c < 3; ++c) {
-                out[c].row(y)[x] += receives * static_cast<float>(given[c] / receivers);
-            }
+            for (size_t c = 0; c < 3; ++c)
+                out[c].row(y)[x] += receives * static_cast<float>(sum[c]);
         }
     });
 }
@@ -157,28 +183,6 @@ Rgb GiveBack::spread(const Rgb& taken) const {
         add(level, sums, out);
         sums = hand_on(sums, level);
     }
-    // Between the middles of cells that receive unequally not all has been given.
-    Rgb rest;
-    for (size_t c = 0; c < 3; ++c) {
-        rest[c] = make_plane(receives_.width(), receives_.height(), 0, [&](int x, int y) {
-            return taken[c].row(y)[x] - out[c].row(y)[x];
-        });
-    }
-    sums = gather(rest);
-    std::array<double, 3> all = {};
-    double receivers = 0;
-    for (size_t i = 0; i < sums.size(); ++i) {
-        receivers += levels_.front().receives[i];
-        for (size_t c = 0; c < 3; ++c)
-            all[c] += sums[i][c];
-    }
-    if (!(receivers > 0)) return out;
-    for_rows(receives_.height(), [&](int y) {
-        for (int x = 0; x < receives_.width(); ++x) {
-            for (size_t c = 0; c < 3; ++c)
-                out[c].row(y)[x] += receives_.row(y)[x] * static_cast<float>(all[c] / receivers);
-        }
-    });
     return out;
 }
 

@@ -27,6 +27,7 @@ private:
         int size = 0;                         ///< pixels a side
         int width = 0, height = 0;            ///< cells
         std::vector<double> light, receives;  ///< by cell, summed
+        std::vector<double> receivers;        ///< what all pixels receive of a cell's light
         std::vector<double> kept;             ///< share of the cell's light that is not handed on
     };
     using CellSums = std::vector<std::array<double, 3>>;
@@ -34,6 +35,7 @@ private:
     CellSums gather(const Rgb& taken) const;
     static CellSums hand_on(const CellSums& sums, const Level& level);
     static std::vector<double> merged(const std::vector<double>& sums, const Level& level);
+    std::vector<double> receivers(const Level& level) const;
     void add(const Level& level, const CellSums& sums, Rgb& out) const;
 
     Plane receives_;

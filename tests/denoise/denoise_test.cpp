@@ -134,6 +134,32 @@ TEST(Denoise, LayersStillAddUp) {
         ASSERT_EQ(other[i], 0.25f);
 }
 
+/// Layers are light: whatever the filter takes from others, none gets less than nothing.
+TEST(Denoise, LayersAreNeverNegative) {
+    Wall wall;
+    wall.light(even, 0.9f);
+    wall.halves[1][3 * 777] = 500;
+    std::vector<float> beauty = wall.mean();
+    std::vector<float> spots(beauty.size());
+    std::vector<float> other(beauty);
+    for (size_t i = 0; i < beauty.size(); i += 3) {
+        const size_t x = i / 3 % width;
+        if (x >= 63 || i == size_t{3} * 777) continue;
+        for (size_t c = i; c < i + 3; ++c) {
+            spots[c] = x % 9 == 8 ? beauty[c] : 0.0f;
+            other[c] = beauty[c] - spots[c];
+        }
+    }
+    const double light = total_light(spots);
+    denoise(wall.input(), std::vector<LightImage>{{beauty, 3}, {spots, 3}, {other, 3}});
+    EXPECT_GE(*std::min_element(spots.begin(), spots.end()), 0);
+    EXPECT_GE(*std::min_element(other.begin(), other.end()), 0);
+    EXPECT_NEAR(total_light(spots), light, 0.05 * light);
+    for (size_t i = 0; i < beauty.size(); ++i) {
+        ASSERT_NEAR(spots[i] + other[i], beauty[i], 2e-5f * beauty[i]) << i;
+    }
+}
+
 TEST(Denoise, PixelsWithoutAlphaAreLeftAloneAndTellNothing) {
     Wall wall;
     wall.light(even, 0.3f);

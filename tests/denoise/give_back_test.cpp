@@ -64,6 +64,23 @@ TEST(GiveBack, AllOfItComesBackAndNoPixelGetsMuch) {
     }
 }
 
+/// However unequally pixels receive, all comes back, and light stays light.
+TEST(GiveBack, NoPixelPaysForOthers) {
+    Rgb taken;
+    taken.fill(constant(150, 70, 0));
+    taken[0].row(40)[40] = 5;
+    const Plane shine = constant(150, 70, 1);
+    const Plane receives = make_plane(150, 70, plane_border, [](int x, int y) {
+        return x / 16 == 2 && y / 16 == 2 ? 1.0f : 0.3f;
+    });
+    const Rgb back = GiveBack(taken, shine, receives).spread(taken);
+    EXPECT_NEAR(sum(back[0]), 5, 1e-4);
+    for (int y = 0; y < 70; ++y) {
+        for (int x = 0; x < 150; ++x)
+            ASSERT_GE(back[0].row(y)[x], 0) << x << ' ' << y;
+    }
+}
+
 TEST(GiveBack, NothingGoesWhereNothingIsReceived) {
     Rgb taken;
     taken.fill(constant(64, 64, 0));
