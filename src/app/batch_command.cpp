@@ -86,6 +86,7 @@ Result<std::vector<SceneRun>> runs_of(const BatchJob& job,
         request->lists.lists_only = arguments.dry_run;
         request->lists.shares_manifest = part.has_value();
         runs.push_back({std::move(*request), options_for_merge(run.arguments)});
+        runs.back().places = run.places;
         runs.back().is_of_another_part = part && is_of_another_part(run, job, *part);
     }
     return runs;

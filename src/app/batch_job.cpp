@@ -9,7 +9,6 @@
 #include "app/render_options.h"
 #include "app/unused_options.h"
 #include "base/json/json_file.h"
-#include "base/setting_names.h"
 #include "image/output_format.h"
 #include "image/write.h"
 #include "session/image_names.h"
@@ -64,7 +63,10 @@ void read_options(const JsonReader& reader, const json& tree, JobRun& run) {
         }
         const std::string expected = set_from_json(*found, options->at(key));
         if (!expected.empty()) inside.fault(key, value_id, expected);
-        run.places[name] = inside.pointer() + json_pointer_part(key);
+        const std::string place = inside.pointer() + json_pointer_part(key);
+        run.places[name] = place;
+        if (*found->info.files != 0 && options->at(key).is_string())
+            run.places[options->at(key).get<std::string>()] = place;
     });
 }
 
@@ -265,20 +267,12 @@ void warn_of_unused_options(const BatchJob& job,
 }
 
 Result<RenderRequest> request_of_run(const JobRun& run) {
-    const auto placed = [&](Error error) {
-        const auto place = run.places.find(spell_settings(error.where, SettingNames::options));
-        if (place == run.places.end()) return error;
-        const bool is_output = !place->first.starts_with("--");
-        if (is_output) error.message = place->first + ": " + error.message;
-        error.where = place->second;
-        return error;
-    };
     for (const std::string& output : run.arguments.outputs) {
         const Result<OutputTarget> target = output_target(output);
-        if (!target) return fail(placed(target.error()));
+        if (!target) return fail(at_its_place(target.error(), run.places));
     }
     Result<RenderRequest> request = make_render_request(run.arguments);
-    if (!request) return fail(placed(request.error()));
+    if (!request) return fail(at_its_place(request.error(), run.places));
     return request;
 }
 

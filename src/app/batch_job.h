@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "app/option_places.h"
 #include "app/render_request.h"
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,8 +15,7 @@ namespace obscura::app {
 struct JobRun {
     RenderArguments arguments;
     size_t asset = 0;  ///< number in the job
-    /// Where the job says so, by the option's long name or the output's: "job.json#/outputs/0".
-    std::map<std::string, std::string> places = {};
+    OptionPlaces places = {};
 };
 
 struct BatchJob {

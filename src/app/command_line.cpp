@@ -74,6 +74,14 @@ std::string option_of(const CLI::ParseError& error) {
     return counts ? text.substr(0, text.find_first_of(": ")) : "";
 }
 
+/// The flag that was given a value; "" for other complaints.
+std::string flag_with_value(const CLI::ParseError& error) {
+    const std::string text = error.what();
+    const size_t name = text.find("--");
+    const bool has_value = error.get_name() == "ConversionError" && name != std::string::npos;
+    return has_value ? text.substr(name, text.find_first_of(" =", name) - name) : "";
+}
+
 /// The commands but `render`, with commas and an "or" between them.
 std::string names_of_others(const Program& program) {
     std::vector<std::string> names;
@@ -103,6 +111,9 @@ tl::unexpected<Error> worded(const CLI::App& app,
     const std::string hint = "; `obscura " + name + " --help` lists what is accepted";
     const std::vector<std::string> extras = chosen.front()->remaining();
     if (extras.empty()) {
+        const std::string flag = flag_with_value(error);
+        if (!flag.empty())
+            return usage(flag, "it is given or left out, and takes no value" + hint);
         const std::string option = option_of(error);
         if (option.empty()) return usage("command-line", error.what() + hint);
         return usage(option, "expected the option once, with one value" + hint);

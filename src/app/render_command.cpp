@@ -52,7 +52,10 @@ void log_summary(const Job& job, const RenderStatistics& statistics) {
     if (is_part_of_image(request)) {
         names = part_file(request.outputs.front(), *request.part).string();
     } else {
-        for (const std::filesystem::path& output : request.outputs)
+        // Of a single image the names are known; of many, the pattern tells them.
+        const bool is_one = job.rendered == 1 && job.skipped == 0;
+        for (const std::filesystem::path& output :
+             is_one ? job.request.outputs : request.outputs)
             names += (names.empty() ? "" : ", ") + output.string();
     }
     if (request.standard_output)
@@ -321,7 +324,10 @@ private:
             locked_.push_back(i);
             return;
         }
-        add_failure(i, std::move(done.error()));
+        Error error = at_its_place(std::move(done.error()), runs_[i].places);
+        for (Error& also : error.also)
+            also = at_its_place(std::move(also), runs_[i].places);
+        add_failure(i, std::move(error));
     }
 
     bool keeps_asset(size_t i) const {

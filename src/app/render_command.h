@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "app/option_places.h"
 #include "app/render_job.h"
 #include "app/render_request.h"
 
@@ -22,6 +23,7 @@ struct SceneRun {
     NamedTexts options;                 ///< as they were given: see options_for_merge
     const ImageParts* parts = nullptr;  ///< where pixels come from; null: they are rendered
     ImageHooks hooks = {};
+    OptionPlaces places = {};         ///< in a job
     bool is_of_another_part = false;  ///< of the command: only metered for --exposure auto
 };
 

@@ -284,6 +284,10 @@ private:
                           "]; the others go on");
         if (!job_.unwritten) job_.watch.begin_preparing();
         failures_.push_back(error);
+        if (!image.label.empty()) {
+            std::string& message = failures_.back().message;
+            message = image.label + ": " + message;
+        }
         return {};
     }
 

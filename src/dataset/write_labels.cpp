@@ -3,6 +3,7 @@
 #include "dataset/write_labels.h"
 
 #include "base/atomic_file.h"
+#include "base/file_bytes.h"
 #include "base/json/json.h"
 #include "base/json/json_file.h"
 #include "base/name_search.h"
@@ -125,6 +126,22 @@ std::vector<MaskedObject> masked_objects(const RayLabels& rays,
     return out;
 }
 
+/// The name of an object's mask, by its number among those of the image.
+std::string mask_file(const std::string& image, size_t object) {
+    return fmt::format("{}_{:06}.png", image, object);
+}
+
+/// The number of objects that an image's labels tell of; none where they are not whole.
+std::optional<size_t> labelled_objects(const fs::path& file) {
+    const FileBytes read = read_file_bytes(file, {});
+    if (read.fault != FileFault::none) return {};
+    const auto* const text = reinterpret_cast<const char*>(read.bytes.data());
+    const auto labels =
+        nlohmann::json::parse(text, text + read.bytes.size(), nullptr, /*allow_exceptions=*/false);
+    if (!labels.is_object() || !labels.contains("objects")) return {};
+    return labels.at("objects").size();
+}
+
 /// Masks of each object, by its number among those of the image, as BOP names them.
 Result<void> write_masks(const fs::path& folder,
                          const std::string& name,
@@ -139,7 +156,7 @@ Result<void> write_masks(const fs::path& folder,
             return;
         }
         const Masks& masks = objects[i].masks;
-        const std::string file = fmt::format("{}_{:06}.png", name, i);
+        const std::string file = mask_file(name, i);
         written[i] = write_grey(folder / mask_folder / file, rays, grey_of(rays, masks.all), bits);
         if (!written[i]) return;
         written[i] = write_grey(
@@ -346,11 +363,19 @@ Result<void> LabelWriter::write(const LabelledImage& image, Log& log) {
 
 bool LabelWriter::has_written(const fs::path& image) const {
     const std::string name = image.stem().string();
-    const auto has_image = [&](const char* folder) {
-        return read_fingerprint(options_.folder / folder / (name + ".png")).has_value();
+    const auto has_image = [&](const char* folder, const std::string& file) {
+        return read_fingerprint(options_.folder / folder / file).has_value();
     };
-    return is_whole_json(options_.folder / labels_folder / (name + ".json")) &&
-           has_image(depth_folder) && has_image(segmentation_folder);
+    const std::optional<size_t> objects =
+        labelled_objects(options_.folder / labels_folder / (name + ".json"));
+    if (!objects || !has_image(depth_folder, name + ".png") ||
+        !has_image(segmentation_folder, name + ".png"))
+        return false;
+    for (size_t i = 0; options_.writes_masks && i < *objects; ++i) {
+        const std::string file = mask_file(name, i);
+        if (!has_image(mask_folder, file) || !has_image(visible_mask_folder, file)) return false;
+    }
+    return true;
 }
 
 }  // namespace obscura::dataset

@@ -248,6 +248,16 @@ Result<Layer> light_layer_of(const std::string& text) {
                     "expected NAME=EXPRESSION such as key=C.*<L'key'>, with a name of letters, "
                     "digits, - and _");
     }
+    const Layer known = layer_named(name, 0);
+    const bool is_of_data =
+        !known.channels.empty() && !std::holds_alternative<LightLayer>(known.source);
+    if (is_of_data) {
+        return fail(ExitCode::usage,
+                    "E-LAYER-NAME",
+                    text.substr(0, max_shown_expression),
+                    "the layer '" + name +
+                        "' is another, which programs know by this name; give it one of its own");
+    }
     Result<LightPathExpression> expression =
         parse_light_path_expression(std::string_view(text).substr(equals + 1));
     if (!expression) return fail(expression.error());

@@ -108,7 +108,8 @@ bool is_layer_name(std::string_view name);
 
 /// The layer of `--lpe NAME=EXPRESSION`.
 ///
-/// Errors  64 E-LPE; E-LAYER-NAME when the name is not made of letters, digits, - and _
+/// Errors  64 E-LPE; E-LAYER-NAME when the name is not made of letters, digits, - and _, or is that
+///         of a layer that is no light, as "albedo" or "half_1"
 Result<Layer> light_layer_of(const std::string& text);
 
 /// Whether the paths' light must be told apart for one of the layers.

@@ -406,5 +406,32 @@ TEST_F(Batch, MistakesHaveTheirPlace) {
     expect_result(run({"batch", "none.json"}), 67, "E-JOB-MISSING");
 }
 
+/// Also what only the asset tells, or a file that is read in its turn.
+TEST_F(Batch, MistakesThatShowLaterHaveTheirPlace) {
+    const auto fails = [&](const char* patch, int code, const char* id, const char* message) {
+        json job = small_job();
+        job.merge_patch(json::parse(patch));
+        const ProgramRun got = batch(job);
+        expect_result(got, code, id);
+        EXPECT_THAT(got.err, HasSubstr(message)) << patch;
+    };
+    fails(R"({"options": {"hide": ["Nobody"]}})",
+          64,
+          "E-HIDE-UNKNOWN",
+          "job.json#/options/hide: no node, mesh or material is called 'Nobody'");
+    fails(R"({"looks": [{"name": "x", "options": {"variant": "None"}}]})",
+          64,
+          "E-VARIANT-UNKNOWN",
+          "job.json#/looks/0/options/variant: the asset has no variant");
+    fails(R"({"looks": [{"name": "x", "options": {"env": "none.hdr"}}]})",
+          67,
+          "E-ENV-MISSING",
+          "job.json#/looks/0/options/env: none.hdr: the environment cannot be read");
+    fails(R"({"options": {"view": "None"}})",
+          78,
+          "E-OCIO-VIEW",
+          "job.json#/options/view: None: display");
+}
+
 }  // namespace
 }  // namespace obscura

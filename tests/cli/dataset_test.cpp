@@ -318,7 +318,11 @@ TEST_F(DatasetCommand, WhatIsMissingIsMadeAgain) {
     const Texts options = {"-o", "d", "--write", "bop"};
     expect_result(dataset(options), 0, "OK");
     const auto whole = files("d");
-    for (const char* file : {"labels/000001.json", "depth/000002.png", "segmentation/000003.png"}) {
+    for (const char* file : {"labels/000001.json",
+                             "depth/000002.png",
+                             "segmentation/000003.png",
+                             "mask/000001_000000.png",
+                             "mask_visib/000000_000000.png"}) {
         for (const bool cut : {false, true}) {
             const fs::path path = folder_ / "d/000000" / file;
             if (cut) {
@@ -380,7 +384,7 @@ TEST_F(DatasetCommand, ASceneThatFailsLeavesNoFolder) {
 
 TEST_F(DatasetCommand, DamagedLabelsAreNamed) {
     expect_result(dataset({"-o", "d", "--write", "coco"}), 0, "OK");
-    folder_.write("d/pair/labels/000001.json", R"({"image": "rgb/000001.png"})");
+    folder_.write("d/pair/labels/000001.json", R"({"image": "rgb/000001.png", "objects": []})");
     const ProgramRun got = dataset({"-o", "d", "--write", "coco", "--skip-existing"});
     expect_result(got, 65, "E-DATASET-LABELS");
 }

@@ -180,7 +180,7 @@ TEST_F(ManyImages, OneFailureDoesNotEndTheRest) {
     const ProgramRun got =
         render("box.gltf", {"--views", "views.json", "-o", "{view}.exr", "--manifest", "m.jsonl"});
     expect_result(got, 64, "E-CAM-VIEW");
-    EXPECT_THAT(got.err, HasSubstr("2 of 4 images failed"));
+    EXPECT_THAT(got.err, HasSubstr("2 of 4 images failed; the first: bad: "));
     EXPECT_TRUE(fs::exists(folder_ / "a.exr") && fs::exists(folder_ / "b.exr"));
     const std::vector<json> told = lines("m.jsonl");
     ASSERT_EQ(told.size(), 4U);

@@ -87,6 +87,7 @@ const std::vector<Wrong> mistakes = {
     {{"info"}, "E-USAGE", "SCENE is required"},
     {{"render", "box.gltf", "--sp", "3"}, "E-USAGE", "did you mean --spp?"},
     {{"render", "box.gltf", "-x"}, "E-USAGE", "no such option"},
+    {{"render", "box.gltf", "--denoise=best"}, "E-USAGE", "--denoise: it is given or left out"},
     {{"render", "box.gltf", "--eye", "1", "2", "3"}, "E-USAGE", "--eye 1,2,3"},
     {{"info", "box.gltf", "quad.gltf"}, "E-USAGE", "one argument too many"},
     {{"render", "box.gltf", "--spp", "1", "2"}, "E-USAGE", "one argument too many"},

@@ -412,6 +412,7 @@ TEST(LightPathExpressions, AreLayersOfTheirOwn) {
     EXPECT_LT(mean_of(result, "second"), mean_of(result, "diffuse_indirect"));
     EXPECT_EQ(light_layer_of("a b=C.*L").error().id, "E-LAYER-NAME");
     EXPECT_EQ(light_layer_of("C.*L").error().id, "E-LAYER-NAME");
+    EXPECT_EQ(light_layer_of("half_1=C.*L").error().id, "E-LAYER-NAME");
     EXPECT_EQ(light_layer_of("a=C.*").error().id, "E-LPE");
 }
 
