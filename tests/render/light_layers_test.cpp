@@ -410,9 +410,8 @@ TEST(LightPathExpressions, AreLayersOfTheirOwn) {
     EXPECT_EQ(mean_of(result, "none"), 0);
     EXPECT_GT(mean_of(result, "second"), 0);
     EXPECT_LT(mean_of(result, "second"), mean_of(result, "diffuse_indirect"));
-    EXPECT_EQ(light_layer_of("a b=C.*L").error().id, "E-LAYER-NAME");
-    EXPECT_EQ(light_layer_of("C.*L").error().id, "E-LAYER-NAME");
-    EXPECT_EQ(light_layer_of("half_1=C.*L").error().id, "E-LAYER-NAME");
+    for (const char* text : {"a b=C.*L", "C.*L", "half_1=C.*L"})
+        EXPECT_EQ(light_layer_of(text).error().id, "E-LAYER-NAME") << text;
     EXPECT_EQ(light_layer_of("a=C.*").error().id, "E-LPE");
 }
 
