@@ -112,8 +112,7 @@ tl::unexpected<Error> worded(const CLI::App& app,
     const std::vector<std::string> extras = chosen.front()->remaining();
     if (extras.empty()) {
         const std::string flag = flag_with_value(error);
-        if (!flag.empty())
-            return usage(flag, "it is given or left out, and takes no value" + hint);
+        if (!flag.empty()) return usage(flag, "it is given or left out, and takes no value" + hint);
         const std::string option = option_of(error);
         if (option.empty()) return usage("command-line", error.what() + hint);
         return usage(option, "expected the option once, with one value" + hint);

@@ -54,8 +54,7 @@ void log_summary(const Job& job, const RenderStatistics& statistics) {
     } else {
         // Of a single image the names are known; of many, the pattern tells them.
         const bool is_one = job.rendered == 1 && job.skipped == 0;
-        for (const std::filesystem::path& output :
-             is_one ? job.request.outputs : request.outputs)
+        for (const std::filesystem::path& output : is_one ? job.request.outputs : request.outputs)
             names += (names.empty() ? "" : ", ") + output.string();
     }
     if (request.standard_output)
