@@ -131,7 +131,10 @@ struct Server::Impl {
         http.set_keep_alive_timeout(keep_alive_s);
         http.set_keep_alive_max_count(1000000);
         http.set_tcp_nodelay(true);
-        http.set_socket_options(reuse_address);
+        http.set_socket_options([this](socket_t socket) {
+            listening = socket;
+            reuse_address(socket);
+        });
         http.set_default_headers(safe_headers);
         route_page();
         route_files();
@@ -160,6 +163,7 @@ struct Server::Impl {
     httplib::Server http;
     Routes routes;
     int port = 0;
+    socket_t listening = INVALID_SOCKET;  ///< the last that was made: at a host's last address
     std::atomic<bool> is_ending = false;
 };
 
@@ -310,7 +314,11 @@ Result<std::unique_ptr<Server>> Server::listen(ServerOptions options) {
     } else if (!impl->http.bind_to_port(given.address, given.port)) {
         impl->port = -1;
     }
-    if (impl->port > 0) return std::unique_ptr<Server>(new Server(std::move(impl)));
+    if (impl->port > 0) {
+        // The library lets five clients wait; the next of a burst would try again a second later.
+        (void)::listen(impl->listening, SOMAXCONN);
+        return std::unique_ptr<Server>(new Server(std::move(impl)));
+    }
     return fail(ExitCode::unsupported,
                 "E-SERVE-LISTEN",
                 given.address + ":" + std::to_string(given.port),
