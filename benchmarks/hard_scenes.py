@@ -58,6 +58,16 @@ class Scene:
             self.gltf.use('KHR_materials_' + extension)
         return material
 
+    def fog(self, name, color, distance):
+        """A scattering medium like air: its boundary neither refracts nor reflects."""
+        material = self.scattering(name, color, distance, roughness=0.0)
+        self.gltf.json['materials'][material]['extensions'].update({
+            'KHR_materials_transmission': {'transmissionFactor': 1.0},
+            'KHR_materials_ior': {'ior': 1.0}})
+        for extension in ('transmission', 'ior'):
+            self.gltf.use('KHR_materials_' + extension)
+        return material
+
     def glass(self, name, ior=1.5):
         material = self.gltf.material(name, roughness=0.0)
         self.gltf.json['materials'][material]['extensions'] = {
@@ -79,16 +89,24 @@ def cloud():
     """A medium that scatters, index of refraction 1, under a lamp and the sky."""
     scene = Scene((0, 1.2, 4.5), (0, 0.9, 0))
     scene.floor()
-    material = scene.scattering('Cloud', [0.95, 0.95, 0.95], 0.4, roughness=0.0)
-    scene.gltf.json['materials'][material]['extensions'].update({
-        'KHR_materials_transmission': {'transmissionFactor': 1.0},
-        'KHR_materials_ior': {'ior': 1.0}})
-    for extension in ('transmission', 'ior'):
-        scene.gltf.use('KHR_materials_' + extension)
+    material = scene.fog('Cloud', [0.95, 0.95, 0.95], 0.4)
     scene.add('Cloud', shapes.sphere(0.8, 64, 32), material, translation=(0, 1, 0))
     lamp = scene.gltf.material('Lamp', color=(0, 0, 0), emission=(20, 18, 15),
                                double_sided=True)
     scene.add('Lamp', downward((1.2, 2.8, 0.6), 0.3), lamp)
+    return scene
+
+
+def fog():
+    """A point light in fog, over three balls."""
+    scene = Scene((0, 1.4, 5.5), (0, 1.0, 0))
+    scene.floor(3.0)
+    material = scene.fog('Fog', [0.9, 0.9, 0.9], 4.0)
+    scene.add('Fog', shapes.sphere(2.6, 96, 48), material, translation=(0, 2.65, 0))
+    for k, x in enumerate((-1.2, 0.0, 1.3)):
+        scene.add('Ball %d' % k, shapes.sphere(0.35, 48, 24),
+                  scene.gltf.material('Ball %d' % k, color=GREY), translation=(x, 0.4, 0.2 * k))
+    scene.point('Point', (0.5, 1.6, 0.3), 12.0)
     return scene
 
 
@@ -297,7 +315,7 @@ def bush(count, half, texture=None, **material):
     return scene
 
 
-SCENES = {'cloud': cloud, 'mask_emitter': mask_emitter, 'soft_floor': soft_floor,
+SCENES = {'cloud': cloud, 'fog': fog, 'mask_emitter': mask_emitter, 'soft_floor': soft_floor,
           'glass_ball': glass_ball, 'points': lamps('points'), 'quads': lamps('quads'),
           'spheres': lamps('spheres'), 'lit_rooms': lit_rooms, 'glow': glow,
           'room': room, 'room_sun': room_sun, 'foliage': foliage, 'leaves': leaves, 'wax': wax,

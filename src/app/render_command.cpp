@@ -415,6 +415,7 @@ int run_scenes(std::vector<SceneRun>& runs,
                Log& log,
                const std::function<Result<void>()>& finish) {
     if (auto fits = check_scenes(runs); !fits) return report_failure(fits.error(), log);
+    const StopOnSignal signals(StopOnSignal::Kind::farm_too);  // also between renderings
     const RenderRequest& first = runs.front().request;
     if (first.gives_way) give_way_to_others();  // the threads that follow, too
     if (auto begun = begin_manifest(first); !begun) return report_failure(begun.error(), log);

@@ -423,6 +423,7 @@ Result<void> list_all(Job& job) {
     if (auto listed = poses.find_images(job.log); !listed) return listed;
     std::string text;
     const std::vector<ListedImage>& images = poses.list().images;
+    if (auto own = note_files(job, images); !own) return own;
     const std::vector<size_t> indices = indices_to_render(job.whole, images.size());
     for (const size_t i : indices) {
         for (const std::filesystem::path& file : all_files(job.whole, images[i]))

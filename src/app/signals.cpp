@@ -12,6 +12,7 @@ namespace {
 std::atomic<bool> stop_requested{false};
 std::atomic<int> stop_signal{0};
 std::atomic<bool> save_requested{false};
+std::atomic<int> living{0};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 
 void set_handler(int signal, void (*handler)(int)) {
@@ -52,7 +53,11 @@ void ignore_broken_pipes() {
     set_handler(SIGPIPE, SIG_IGN);
 }
 
-StopOnSignal::StopOnSignal(Kind kind) : kind_(kind) {
+StopOnSignal::StopOnSignal(Kind kind) : kind_(kind), is_first_(living++ == 0) {
+    if (!is_first_) {
+        clear_unless_signal();  // of a time limit
+        return;
+    }
     stop_requested.store(false);
     stop_signal.store(0);
     save_requested.store(false);
@@ -64,6 +69,8 @@ StopOnSignal::StopOnSignal(Kind kind) : kind_(kind) {
 }
 
 StopOnSignal::~StopOnSignal() {
+    --living;
+    if (!is_first_) return;
     restore_unless_ignored(SIGINT);
     restore_unless_ignored(SIGTERM);
     if (kind_ == Kind::stops) return;

@@ -10,7 +10,10 @@ namespace obscura::app {
 void ignore_broken_pipes();
 
 /// While it lives, the first SIGINT or SIGTERM sets a flag instead of ending the process. A second
-/// SIGINT ends it at once; further SIGTERMs are ignored. At most one lives at a time.
+/// SIGINT ends it at once; further SIGTERMs are ignored.
+///
+/// One that is made while another lives shares its signals: none is lost between the renderings of
+/// a command.
 class StopOnSignal {
 public:
     enum class Kind {
@@ -33,9 +36,10 @@ public:
 
 private:
     Kind kind_;
+    bool is_first_;
 };
 
-/// The signal that stopped the latest StopOnSignal, 0 if none did.
+/// The signal that came since the first of the living, or the latest, was made; 0: none.
 int received_stop_signal();
 
 /// Restores the signal's default handling and sends it to this process again, so that the shell

@@ -43,7 +43,10 @@ Watch::Watch(std::string where, const Log& log, const WatchTimes& times)
       snapshots_(times.snapshot_interval_s.value_or(never_s),
                  times.snapshot_interval_s.value_or(never_s),
                  max_share_of_snapshots),
-      thread_([this] { run(); }) {}
+      thread_([this] { run(); }) {
+    // Renderings may be shorter than a poll's period: a signal that came before is seen at once.
+    if (received_stop_signal() != 0) end_now(false);
+}
 
 Watch::~Watch() {
     {

@@ -142,6 +142,16 @@ std::optional<size_t> labelled_objects(const fs::path& file) {
     return labels.at("objects").size();
 }
 
+/// Removes the masks of further objects: an earlier image of this name may have had more.
+void remove_masks_from(const fs::path& folder, const std::string& image, size_t object) {
+    std::error_code ignored;
+    for (bool any = true; any; ++object) {
+        any = false;
+        for (const char* const masks : {mask_folder, visible_mask_folder})
+            any = fs::remove(folder / masks / mask_file(image, object), ignored) || any;
+    }
+}
+
 /// Masks of each object, by its number among those of the image, as BOP names them.
 Result<void> write_masks(const fs::path& folder,
                          const std::string& name,
@@ -165,6 +175,7 @@ Result<void> write_masks(const fs::path& folder,
     for (Result<void>& one : written) {
         if (!one) return std::move(one);
     }
+    remove_masks_from(folder, name, objects.size());
     return {};
 }
 

@@ -3,6 +3,7 @@
 #include "render/light_bounds.h"
 
 #include "math/warp.h"
+#include "scene/thin_walls.h"
 
 #include <algorithm>
 #include <cmath>
@@ -124,7 +125,8 @@ std::vector<Vec3f> way_of(const LightTable&, int32_t, const ShapeLight&) {
 
 std::vector<BoundedLight> bounded_lights(const LightTable& table,
                                          std::span<const double> power,
-                                         int32_t steps) {
+                                         const Scene& scene) {
+    const int32_t steps = scene.motion.steps;
     std::vector<BoundedLight> out;
     size_t number = 0;
     const auto add = [&](const auto& light) {
@@ -141,6 +143,12 @@ std::vector<BoundedLight> bounded_lights(const LightTable& table,
     std::for_each(table.punctual.begin(), table.punctual.end(), add);
     std::for_each(table.triangles.begin(), table.triangles.end(), add);
     std::for_each(table.shapes.begin(), table.shapes.end(), add);
+    const auto is_punctual = [&](const BoundedLight& light) {
+        return light.light < static_cast<int32_t>(table.punctual.size());
+    };
+    const bool is_apart = std::count_if(out.begin(), out.end(), is_punctual) <= max_points_apart &&
+                          has_passable_boundaries(scene);
+    if (is_apart) std::erase_if(out, is_punctual);
     if (out.size() < min_tree_lights) out.clear();
     return out;
 }

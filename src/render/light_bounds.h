@@ -13,13 +13,18 @@ namespace obscura {
 /// With fewer lights, choosing by the point that is lit costs more than it gains.
 inline constexpr size_t min_tree_lights = 16;
 
+/// In media that shadow rays leave, so few punctual lights are chosen by the table: light that they
+/// scatter is sampled where paths are near them (stages/2_scatter_lights.h), which is not known
+/// before the light is.
+inline constexpr int max_points_apart = 8;
+
 /// The lights that are chosen by a tree: all with a place, that is without directional ones and the
 /// environment. None where they are fewer than min_tree_lights: there the table alone chooses.
 ///
 /// In      table: with all its lights; power: of punctual lights, triangles and shapes, by number;
-///         steps: of Motion
+///         scene: tells Motion's steps, and whether there are such media
 std::vector<BoundedLight> bounded_lights(const LightTable& table,
                                          std::span<const double> power,
-                                         int32_t steps);
+                                         const Scene& scene);
 
 }  // namespace obscura

@@ -339,7 +339,7 @@ LightTable make_light_table(Scene& scene, const EnvironmentTable* environment) {
 
     std::vector<double> powers = std::move(punctual);
     powers.insert(powers.end(), triangles.begin(), triangles.end());
-    const std::vector<BoundedLight> in_tree = bounded_lights(table, powers, scene.motion.steps);
+    const std::vector<BoundedLight> in_tree = bounded_lights(table, powers, scene);
     const size_t count = weights.size();
     if (!in_tree.empty()) weights.push_back(take_weight(in_tree, weights));
     table.choice = build_cdf_table(std::span<const double>(weights));

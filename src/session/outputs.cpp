@@ -215,6 +215,8 @@ Result<void> check_outputs(const RenderRequest& request) {
 Result<void> check_image_files(const RenderRequest& request,
                                const std::vector<ListedImage>& images) {
     std::set<std::filesystem::path> seen;
+    std::optional<Error> first;
+    bool any = false;
     for (const ListedImage& image : images) {
         bool is_new = false;
         for (const std::filesystem::path& output : image.outputs)
@@ -225,8 +227,14 @@ Result<void> check_image_files(const RenderRequest& request,
             is_new = seen.insert(image.checkpoint.parent_path()).second || is_new;
         if (!is_new) continue;
         make_folders(request, image);
-        if (auto writable = check_files_of(request, image); !writable) return writable;
+        const Result<void> writable = check_files_of(request, image);
+        any = any || writable;
+        if (!writable && !first) first = writable.error();
+        if (first && !request.lists.is_asked()) break;
     }
+    // Of a list, images that can be written are.
+    const bool goes_on = any && request.lists.is_asked();
+    if (first && !goes_on) return fail(std::move(*first));
     return {};
 }
 

@@ -31,7 +31,8 @@ Result<void> check_outputs(const RenderRequest& request);
 /// every format can hold what it is asked for. Folders that names by pattern call for are made. One
 /// image stands for all whose files lie in the same folders.
 ///
-/// Errors  64 E-OUT-FORMAT, E-USAGE-CONFLICT; 73 E-OUT-CREATE
+/// Errors  64 E-OUT-FORMAT, E-USAGE-CONFLICT; 73 E-OUT-CREATE. Of a list of images, where none can
+///         be written
 Result<void> check_image_files(const RenderRequest& request,
                                const std::vector<ListedImage>& images);
 

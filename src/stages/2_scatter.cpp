@@ -18,8 +18,8 @@ constexpr int flights_before_roulette = 16;
 /// The uses of a flight's random numbers.
 enum class FlightUse : uint32_t { channel, distance, angle, turn, roulette, count };
 
-/// Random numbers of flights are hashed: the pixel's Sobol points have one pair per bounce and none
-/// for flights.
+/// Random numbers of flights after a bounce's first are hashed: the pixel's Sobol points have pairs
+/// for that one alone.
 OBSCURA_INLINE Lanes flight_random(LanesU path_key, const Flight& flight, FlightUse use) {
     const uint32_t number =
         (static_cast<uint32_t>(flight.bounce) << 20U) +
@@ -27,6 +27,18 @@ OBSCURA_INLINE Lanes flight_random(LanesU path_key, const Flight& flight, Flight
         static_cast<uint32_t>(use);
     const uint32_t salt = hash_word(number ^ 0x53434154U);
     return unit_float<Lanes>(hash_word(LanesU(path_key ^ LanesU(salt))));
+}
+
+OBSCURA_INLINE Vec2<Lanes> distance_random(const PathLanes& path, const Flight& flight) {
+    if (flight.number == 0) return flight_pair(path, flight, FlightPair::distance);
+    return {flight_random(path.path_key, flight, FlightUse::channel),
+            flight_random(path.path_key, flight, FlightUse::distance)};
+}
+
+OBSCURA_INLINE Vec2<Lanes> turn_random(const PathLanes& path, const Flight& flight) {
+    if (flight.number == 0) return flight_pair(path, flight, FlightPair::turn);
+    return {flight_random(path.path_key, flight, FlightUse::angle),
+            flight_random(path.path_key, flight, FlightUse::turn)};
 }
 
 /// The fraction of a path's throughput that each channel carries.
@@ -41,11 +53,9 @@ OBSCURA_INLINE PathLanes scattered_path(const PathLanes& path,
                                         const FreeFlight<Lanes>& free,
                                         Lanes anisotropy,
                                         const Flight& flight) {
-    const auto random = [&](FlightUse use) { return flight_random(path.path_key, flight, use); };
     PathLanes next = path;
     next.origin = path.origin + path.direction * free.distance_m;
-    next.direction = scatter_direction(
-        path.direction, anisotropy, {random(FlightUse::angle), random(FlightUse::turn)});
+    next.direction = scatter_direction(path.direction, anisotropy, turn_random(path, flight));
     next.throughput = path.throughput * free.scattered;
     next.pdf = Lanes(0.0f);  // unless light is sampled here, emission that it finds counts in full
     next.cone_width = path.cone_width + path.cone_spread * free.distance_m;
@@ -132,6 +142,7 @@ ScatterCounts scatter(const SceneView& scene,
                       int count,
                       const ScatterColumns& columns) {
     ScatterCounts out;
+    const bool has_points = flight.samples_lights && has_point_lights(scene);
     for (int i = 0; i < count; i += lane_count) {
         const Mask exists = lanes_in_range(i, count);
         PathLanes path = load_paths(columns.random_walks, i);
@@ -140,28 +151,30 @@ ScatterCounts scatter(const SceneView& scene,
         const LanesI medium = select(exists, dominant_medium(path.medium_stack), LanesI(0));
         const Four<Lanes> extinction = read_medium(scene, medium);
         const Four<Lanes> scattering = read_scattering(scene, medium);
-        const Vec2<Lanes> u{flight_random(path.path_key, flight, FlightUse::channel),
-                            flight_random(path.path_key, flight, FlightUse::distance)};
-        const FreeFlight<Lanes> free = sample_flight({extinction.x, extinction.y, extinction.z},
-                                                     {scattering.x, scattering.y, scattering.z},
-                                                     channel_weights(path.throughput),
-                                                     hit.t,
-                                                     u);
         // A ray that hits nothing inside (the mesh is open) counts as having left the medium.
         const Mask has_end = exists & (hit.primitive >= LanesI(0));
+        WayThrough way{has_end,
+                       hit.t,
+                       {extinction.x, extinction.y, extinction.z},
+                       {scattering.x, scattering.y, scattering.z},
+                       channel_weights(path.throughput)};
+        const FreeFlight<Lanes> free = sample_flight(
+            way.extinction, way.albedo, way.probability, way.end_m, distance_random(path, flight));
         const Mask turns = has_end & (free.distance_m < hit.t);
         PathLanes next = scattered_path(path, free, scattering.w, flight);
         if (flight.samples_lights && !flight.last) {
             const WalkingBatch walk{scene, batch, flight};
-            const Mask sampled = turns & samples_lights(walk, medium, extinction.w);
-            if (any(sampled)) {
+            const Mask passable = samples_lights(walk, medium, extinction.w);
+            const Mask sampled = turns & passable;
+            way.exists = has_end & passable & Mask(has_points);
+            if (any(sampled | way.exists)) {
                 const PathLanes here = path;  // only a copy has an address
+                const ScatteringPoint at{
+                    sampled, free.distance_m, next.throughput, scattering.w, here, way};
+                add_light_samples(walk, at, columns, out.shadow);
                 const Lanes cosine = dot(path.direction, next.direction);
                 next.pdf = select(sampled, henyey_greenstein(scattering.w, cosine), next.pdf);
-                add_light_samples(walk,
-                                  {sampled, next.origin, next.throughput, scattering.w, here},
-                                  columns,
-                                  out.shadow);
+                if (has_points) turn_to_lights(walk, at, turn_random(path, flight), next);
             }
         }
         const Mask alive =

@@ -8,13 +8,27 @@
 #include "stages/contribution_limit.h"
 #include "surface/scattering.h"
 
+#include <algorithm>
+
 namespace obscura {
 inline namespace OBSCURA_ISA {
 
 namespace {
 
+/// Of more punctual lights, those that have a place are in the tree.
+constexpr int max_looked_at = 64;
+
 /// The uses of the random numbers with which a flight's end samples lights.
-enum class LightUse : uint32_t { x, y, texture_x, texture_y, texture_level, count };
+enum class LightUse : uint32_t {
+    x,
+    y,
+    texture_x,
+    texture_y,
+    texture_level,
+    near_choice,
+    near_place,
+    count
+};
 
 OBSCURA_INLINE LanesU hashed(LanesU path_key, const Flight& flight, LightUse use) {
     const uint32_t number =
@@ -27,10 +41,8 @@ OBSCURA_INLINE LanesU hashed(LanesU path_key, const Flight& flight, LightUse use
 /// The light that each path samples. The first scattering has the pixel's Sobol points, of which
 /// surfaces use those of a bounce too; later ones have none.
 OBSCURA_INLINE LightDraw draw_walk_light(const SceneView& scene,
-                                         const ScatteringPoint& scattering,
-                                         const Flight& flight,
-                                         const LitPoint<Lanes>& at) {
-    const PathLanes& path = scattering.path;
+                                         const PathLanes& path,
+                                         const Flight& flight) {
     Vec2<LanesU> random;
     if (flight.number == 0) {
         const uint32_t pair = static_cast<uint32_t>(flight.bounce) * pairs_per_bounce +
@@ -42,8 +54,14 @@ OBSCURA_INLINE LightDraw draw_walk_light(const SceneView& scene,
     }
     LightDraw draw = draw_light(scene, random);
     draw_light_pixel(scene, draw);
-    if (scene.lights.tree.nodes != nullptr) draw_light_of_tree(scene, at, scattering.exists, draw);
     return draw;
+}
+
+/// Random numbers that choose a place near a light.
+OBSCURA_INLINE Vec2<Lanes> near_random(const PathLanes& path, const Flight& flight) {
+    if (flight.number == 0) return flight_pair(path, flight, FlightPair::near_light);
+    return {unit_float<Lanes>(hashed(path.path_key, flight, LightUse::near_choice)),
+            unit_float<Lanes>(hashed(path.path_key, flight, LightUse::near_place))};
 }
 
 OBSCURA_INLINE Vec3<Lanes> texture_random(const PathLanes& path, const Flight& flight) {
@@ -54,16 +72,96 @@ OBSCURA_INLINE Vec3<Lanes> texture_random(const PathLanes& path, const Flight& f
         random(LightUse::texture_x), random(LightUse::texture_y), random(LightUse::texture_level)};
 }
 
-/// A scattering as light sampling takes it. Lanes without one lie at the origin.
+/// A scattering as light sampling takes it; where paths do not scatter, the end of their way. Lanes
+/// without one lie at the origin.
 OBSCURA_INLINE ShadingPoint point_to_light(const ScatteringPoint& at, const float* time) {
     const Vec3<Lanes> zero = splat3(Lanes(0.0f));
+    const Mask exists = at.exists | at.way.exists;
+    const Lanes distance = min(at.distance_m, at.way.end_m);
     ShadingPoint point{};
-    point.light_start = select(at.exists, at.position, zero);
+    point.light_start = select(exists, at.path.origin + at.path.direction * distance, zero);
     point.time = Lanes(0.0f);
     if (time != nullptr) {
-        point.time = gather<Lanes>(time, select(at.exists, as_int(at.path.slot), LanesI(0)));
+        point.time = gather<Lanes>(time, select(exists, as_int(at.path.slot), LanesI(0)));
     }
     return point;
+}
+
+/// Light that scatters towards the path's start.
+struct WalkLight {
+    Mask exists;
+    Vec3<Lanes> place;
+    Vec3<Lanes> throughput;
+    LightLanes light;
+};
+
+OBSCURA_INLINE PassedLight<Lanes> passed_light(const ScatteringPoint& at, const WalkLight& lit) {
+    const PathLanes& path = at.path;
+    const Vec3<Lanes> light = lit.place + lit.light.direction * lit.light.distance;
+    const Vec3<Lanes> to_light = light - path.origin;
+    const Lanes ahead = dot(to_light, path.direction);
+    const Lanes aside = length(to_light - path.direction * ahead);
+    // Farther into the medium hardly any light comes from.
+    const Lanes mean = dot(at.way.probability, at.way.extinction);
+    const Lanes end = min(at.way.end_m, Lanes(6.0f) / max(mean, Lanes(1e-30f)));
+    return {ahead, max(aside, (end + abs(ahead)) * Lanes(1e-5f)), end};
+}
+
+/// The way from each place to the punctual light that lights it most brightly, as far as intensity
+/// and distance tell.
+OBSCURA_INLINE Vec3<Lanes> to_brightest_light(const SceneView& scene, const Vec3<Lanes>& place) {
+    constexpr auto directional = static_cast<int32_t>(PunctualType::directional);
+    Vec3<Lanes> out = splat3(Lanes(0.0f));
+    Lanes most(0.0f);
+    const int count = std::min(scene.lights.punctual_count, max_looked_at);
+    for (int i = 0; i < count; ++i) {
+        const PunctualLight& light = scene.lights.punctual[i];
+        if (light.type == directional) continue;
+        const Vec3<Lanes> way =
+            Vec3<Lanes>{
+                Lanes(light.position[0]), Lanes(light.position[1]), Lanes(light.position[2])} -
+            place;
+        const float* const candela = light.intensity;
+        const float intensity = std::max(candela[0], std::max(candela[1], candela[2]));
+        const Lanes bright = Lanes(intensity) / max(dot(way, way), Lanes(1e-30f));
+        out = select(bright > most, way, out);
+        most = max(most, bright);
+    }
+    return out;
+}
+
+OBSCURA_INLINE Vec3<Lanes> left_after(const WayThrough& way, Lanes distance) {
+    return {exp(-(way.extinction.x * distance)),
+            exp(-(way.extinction.y * distance)),
+            exp(-(way.extinction.z * distance))};
+}
+
+/// Samples lights without size all along the way. Paths that do not scatter choose a place near the
+/// light; those that do, there or where they scatter, with equal chances.
+///
+/// In      u: uniform in [0, 1)^2; sample_from: light sampling at another place
+/// In/Out  lit: of the lights at the paths' scatterings
+template <typename SampleFrom>
+OBSCURA_INLINE void sample_along_way(const ScatteringPoint& at,
+                                     Mask on_way,
+                                     const Vec2<Lanes>& u,
+                                     const SampleFrom& sample_from,
+                                     WalkLight& lit) {
+    const PathLanes& path = at.path;
+    const WayThrough& way = at.way;
+    const PassedLight<Lanes> passed = passed_light(at, lit);
+    const Mask is_near = on_way & ((!at.exists) | (u.x < Lanes(0.5f)));
+    const Lanes distance = select(is_near, passed.sample(u.y), at.distance_m);
+    const Vec3<Lanes> extinguished = way.extinction * left_after(way, distance);
+    const Lanes passes = dot(way.probability, left_after(way, way.end_m));
+    const Lanes pdf = Lanes(0.5f) * (dot(way.probability, extinguished) +
+                                     (Lanes(1.0f) + passes) * passed.pdf(distance));
+    const Vec3<Lanes> throughput =
+        path.throughput * way.albedo * extinguished * (Lanes(1.0f) / max(pdf, Lanes(1e-30f)));
+    lit.throughput = select(on_way, throughput, lit.throughput);
+    lit.place = select(is_near, path.origin + path.direction * distance, lit.place);
+    choose(lit.light, is_near, sample_from(lit.place));
+    lit.exists = is_near | lit.exists;
 }
 
 }  // namespace
@@ -74,6 +172,49 @@ Mask samples_lights(const WalkingBatch& walk, LanesI medium, Lanes ior) {
     return passable | (medium == LanesI(around));
 }
 
+bool has_point_lights(const SceneView& scene) {
+    const LightView& lights = scene.lights;
+    constexpr auto directional = static_cast<int32_t>(PunctualType::directional);
+    const int count = std::min(lights.punctual_count, max_looked_at);
+    for (int i = 0; i < count; ++i) {
+        const bool is_of_tree = lights.tree.nodes != nullptr && lights.select_pdf[i] >= 1.0f;
+        if (lights.punctual[i].type != directional && !is_of_tree) return true;
+    }
+    return false;
+}
+
+void turn_to_lights(const WalkingBatch& walk,
+                    const ScatteringPoint& at,
+                    const Vec2<Lanes>& u,
+                    PathLanes& next) {
+    const Vec3<Lanes> to_light = to_brightest_light(walk.scene, next.origin);
+    const Lanes distance = length(to_light);
+    const Lanes mean = dot(at.way.probability, at.way.extinction);
+    const Mask is_near = at.exists & (distance * mean < Lanes(3.0f)) & (distance > Lanes(1e-18f));
+    if (none(is_near)) return;
+    constexpr float share = 0.25f;
+    const Vec3<Lanes> axis = select(is_near,
+                                    to_light * (Lanes(1.0f) / distance),
+                                    Vec3<Lanes>{Lanes(0.0f), Lanes(0.0f), Lanes(1.0f)});
+    const Mask is_turned = u.x < Lanes(share);
+    // What is left of the first number is as good as new.
+    const Lanes left = select(
+        is_turned, u.x * Lanes(1.0f / share), (u.x - Lanes(share)) * Lanes(1.0f / (1.0f - share)));
+    const SinCos<Lanes> angle = sin_cos_turn(left * Lanes(0.5f));
+    const SinCos<Lanes> around = sin_cos_turn(u.y);
+    const Vec3<Lanes> local{angle.sin * around.cos, angle.sin * around.sin, angle.cos};
+    const Vec3<Lanes> turned = normalize(to_world(frame_around(axis), local));
+    const Vec3<Lanes> by_phase = scatter_direction(at.path.direction, at.anisotropy, {left, u.y});
+    const Vec3<Lanes> direction = select(is_turned, turned, by_phase);
+    const Lanes phase = henyey_greenstein(at.anisotropy, dot(at.path.direction, direction));
+    const Lanes sine = max(length(cross(direction, axis)), Lanes(1e-5f));
+    const Lanes pdf = Lanes(1.0f - share) * phase +
+                      Lanes(share) * exact_constant<Lanes>(0.5 / (pi_d * pi_d)) / sine;
+    next.direction = select(is_near, direction, next.direction);
+    next.throughput = select(is_near, next.throughput * (phase / pdf), next.throughput);
+    next.pdf = select(is_near, pdf, next.pdf);
+}
+
 void add_light_samples(const WalkingBatch& walk,
                        const ScatteringPoint& at,
                        const ScatterColumns& columns,
@@ -81,18 +222,32 @@ void add_light_samples(const WalkingBatch& walk,
     const SceneView& scene = walk.scene;
     const PathLanes& path = at.path;
     const ShadingPoint point = point_to_light(at, columns.time);
-    const LitPoint<Lanes> lit{point.light_start, splat3(Lanes(0.0f))};
-    const LightDraw draw = draw_walk_light(scene, at, walk.flight, lit);
-    if (columns.lit_points != nullptr)
-        note_lit_points(columns.lit_points, at.exists, path.slot, lit);
-    const LightLanes light = sample_light(scene, point, draw, texture_random(path, walk.flight));
+    LightDraw draw = draw_walk_light(scene, path, walk.flight);
+    const Mask is_punctual = draw.light < LanesI(scene.lights.punctual_count);
+    if (scene.lights.tree.nodes != nullptr) {
+        const LitPoint<Lanes> here{point.light_start, splat3(Lanes(0.0f))};
+        draw_light_of_tree(scene, here, at.exists, draw);
+        if (columns.lit_points != nullptr)
+            note_lit_points(columns.lit_points, at.exists, path.slot, here);
+    }
+    const Vec3<Lanes> texture = texture_random(path, walk.flight);
+    WalkLight lit{
+        at.exists, point.light_start, at.throughput, sample_light(scene, point, draw, texture)};
+    const Mask on_way = at.way.exists & is_punctual & (lit.light.distance < Lanes(farthest_lamp_m));
+    if (any(on_way)) {
+        const auto sample_from = [&](const Vec3<Lanes>& place) {
+            return sample_light_from(scene, {place, point.time}, draw, texture);
+        };
+        sample_along_way(at, on_way, near_random(path, walk.flight), sample_from, lit);
+    }
+    const LightLanes& light = lit.light;
     const Lanes phase = henyey_greenstein(at.anisotropy, dot(path.direction, light.direction));
     const int strategies = walk.batch.strategies;
     Lanes weight(1.0f);
     if (strategies == (sample_lights | sample_bsdfs))
         weight = select(light.pdf > Lanes(0.0f), mis_weight(light.pdf, phase), weight);
-    Vec3<Lanes> radiance = at.throughput * light.radiance_over_pdf * (phase * weight);
-    Mask useful = at.exists & light.valid;
+    Vec3<Lanes> radiance = lit.throughput * light.radiance_over_pdf * (phase * weight);
+    Mask useful = lit.exists & light.valid;
     if (strategies == sample_bsdfs) useful = useful & (light.pdf == Lanes(0.0f));
     if (columns.shadow_media == nullptr) {
         radiance =
@@ -109,7 +264,7 @@ void add_light_samples(const WalkingBatch& walk,
     count = append_shadows(columns.shadows,
                            count,
                            useful,
-                           {.origin = point.light_start,
+                           {.origin = lit.place,
                             .direction = light.direction,
                             .tfar = light.distance,
                             .radiance = radiance,

@@ -111,8 +111,8 @@ OBSCURA_INLINE void read_coat(const LayerReader& layers,
     if (any(slot.used)) {
         const Lanes scale = layers.number<&MaterialLayers::clearcoat_normal_scale>();
         normal = tilt_normal(at.tangents, slot.used, normal, layers.read(slot).rgb, scale);
-        normal = select(dot(normal, at.ng) < Lanes(0.0f), -normal, normal);
     }
+    normal = select(dot(normal, at.ng) < Lanes(0.0f), -normal, normal);
     p.coat_normal = to_local(at.frame, bend_towards_viewer(normal, at.ng, at.wo));
 }
 

@@ -18,7 +18,7 @@ inline constexpr uint32_t d_line_key = 0x5505BU;
 struct LayerContext {
     const TangentLanes& tangents;
     Frame<Lanes> frame;         ///< around the base's shading normal; turned for anisotropy
-    Vec3<Lanes> smooth_normal;  ///< without any normal map, towards the viewer
+    Vec3<Lanes> smooth_normal;  ///< without any normal map, of the front
     Vec3<Lanes> ng;
     Vec3<Lanes> wo;  ///< world
     Mask front;

@@ -43,7 +43,7 @@ void remove_smooth_layers(Mask rough, LayeredPoint& point) {
     const Lanes before = sum_of_probabilities(SampledLobes{}, w);
     const Lanes smooth_square(min_rough_width * min_rough_width);
     const Mask facets = rough & point.layered & (p.alpha.x * p.alpha.y < smooth_square);
-    w.dielectric = select(facets, zero, w.dielectric);
+    w.dielectric = select(facets, splat3(zero), w.dielectric);
     w.metal = select(facets, splat3(zero), w.metal);
     w.p_facet = select(facets, zero, w.p_facet);
     w.transmitted = select(facets, zero, w.transmitted);

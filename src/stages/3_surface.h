@@ -226,8 +226,7 @@ OBSCURA_INLINE ShadingPoint shading_point(const SceneView& scene,
     if (!all(layered)) s.lobes = lobe_weights(s.bsdf, dot(s.frame.normal, interaction.wo));
     s.any_layers = any(layered);
     if (s.any_layers) {
-        const Vec3<Lanes> smooth = select(dot(g.normal, s.ng) < Lanes(0.0f), -g.normal, g.normal);
-        LayerContext context{tangents, s.frame, smooth, s.ng, interaction.wo, front, layered};
+        LayerContext context{tangents, s.frame, g.normal, s.ng, interaction.wo, front, layered};
         read_layered_point({scene, g, filter, path, hit.shared}, s.bsdf, context, s.layers);
         s.frame.tangent = select(layered, context.frame.tangent, s.frame.tangent);
         s.frame.bitangent = select(layered, context.frame.bitangent, s.frame.bitangent);

@@ -61,15 +61,20 @@ OBSCURA_INLINE Vec3<Lanes> tilt_normal(const TangentLanes& tangents,
     return select(used & tangents.known & (dot(n, n) > Lanes(0.5f)), n, normal);
 }
 
-/// Bends a normal until the mirror image of `wo` lies above the surface: no black fringes.
+/// Bends a normal until the mirror image of `wo` lies above the surface: no black fringes. However
+/// far the normal is tilted away from the viewer, the image stays on the side that it is tilted to.
 OBSCURA_INLINE Vec3<Lanes> bend_towards_viewer(const Vec3<Lanes>& n,
                                                const Vec3<Lanes>& ng,
                                                const Vec3<Lanes>& wo) {
-    const Vec3<Lanes> mirrored = n * (Lanes(2.0f) * dot(n, wo)) - wo;
-    const Lanes height = dot(mirrored, ng);
+    const Lanes facing = dot(n, wo);
+    const Lanes height = Lanes(2.0f) * facing * dot(n, ng) - dot(wo, ng);
     const Lanes needed = min(Lanes(0.01f), dot(wo, ng) * Lanes(0.9f));
-    const Vec3<Lanes> raised = normalize(mirrored + ng * (needed - height));
-    return select(height < needed, normalize(wo + raised), n);
+    const Mask bends = (height < needed) | (facing < Lanes(0.0f));
+    const Vec3<Lanes> image = n * (Lanes(2.0f) * abs(facing)) - wo;
+    const Vec3<Lanes> along = image - ng * dot(image, ng);
+    const Lanes scale =
+        sqrt((Lanes(1.0f) - needed * needed) / max(dot(along, along), Lanes(1e-12f)));
+    return select(bends, normalize(wo + along * scale + ng * needed), n);
 }
 
 }  // namespace OBSCURA_ISA

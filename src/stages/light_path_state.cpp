@@ -190,6 +190,14 @@ void LightPathState::split_shadow(uint32_t slot, const StateAfter& state_after) 
     }
 }
 
+void LightPathState::split_shadow_after(uint32_t slot, size_t event) {
+    if (columns_.progress[slot] == path_settled) return;
+    const LightPathTable& table = *columns_.table;
+    split_shadow(slot, [&](uint16_t state) {
+        return table.settled[state] != 0 ? state : table.next[state * scatter_event_count + event];
+    });
+}
+
 void LightPathState::split_moved_shadow(uint32_t slot) {
     if (columns_.progress[slot] == path_settled) return;
     split_shadow(slot, [](uint16_t state) { return state; });

@@ -45,6 +45,10 @@ public:
     void move_path(uint32_t slot, size_t event);
     void move_shadow(uint32_t slot, size_t event);
 
+    /// Gives a shadow ray the weights that its path has after an event, which may not happen to the
+    /// path itself.
+    void split_shadow_after(uint32_t slot, size_t event);
+
     /// Gives a shadow ray the weights of its path, which has moved already.
     void split_moved_shadow(uint32_t slot);
 

@@ -166,6 +166,7 @@ void scatter_in_media(
             flight.last = flight.number + 1 == max_flights;
             out = in.stages->scatter(in.scene, in.batch, flight, out.random_walks, columns);
         }
+        if (out.shadow > 0) begin_walk_shadow_light(in, out.shadow, flight, work);
         if (flight.number == 0)
             begin_random_walks(in, out.random_walks, flight.samples_lights, work);
         if (out.shadow > 0) trace_walk_shadows(in, out.shadow, flight, work, c);

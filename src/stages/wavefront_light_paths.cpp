@@ -55,11 +55,20 @@ void begin_shadow_light(const WavefrontInput& in, int count, int bounce, Workspa
         work.light_paths.add_unshadowed(work.shadows.slot[i], shadow_radiance(work, i));
 }
 
-void begin_walk_shadow_light(const WavefrontInput& in, int count, Workspace& work) {
+void begin_walk_shadow_light(const WavefrontInput& in,
+                             int count,
+                             const Flight& flight,
+                             Workspace& work) {
     if (in.light_paths == nullptr) return;
     work.light_paths.begin_flight();
-    for (int i = 0; i < count; ++i)
-        work.light_paths.split_moved_shadow(work.shadows.slot[i]);
+    for (int i = 0; i < count; ++i) {
+        // Of a bounce's flights the first moves the path.
+        if (flight.number == 0) {
+            work.light_paths.split_shadow_after(work.shadows.slot[i], volume_event);
+        } else {
+            work.light_paths.split_moved_shadow(work.shadows.slot[i]);
+        }
+    }
 }
 
 void add_shadow_light_paths(const WavefrontInput& in, int count, Workspace& work) {

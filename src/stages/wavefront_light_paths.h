@@ -18,8 +18,12 @@ void release_catchers(const WavefrontInput& in, Workspace& work);
 /// Notes the shadow rays of first hits, which are to be traced.
 void begin_shadow_light(const WavefrontInput& in, int count, int bounce, Workspace& work);
 
-/// Gives the shadow rays of a flight inside a medium the weights of their paths.
-void begin_walk_shadow_light(const WavefrontInput& in, int count, Workspace& work);
+/// Gives the shadow rays of a flight inside a medium the weights of their paths as they scatter;
+/// comes before move_random_walks.
+void begin_walk_shadow_light(const WavefrontInput& in,
+                             int count,
+                             const Flight& flight,
+                             Workspace& work);
 
 /// Adds what unoccluded shadow rays bring.
 void add_shadow_light_paths(const WavefrontInput& in, int count, Workspace& work);

@@ -158,7 +158,6 @@ void trace_walk_shadows(const WavefrontInput& in,
                         const Flight& flight,
                         Workspace& work,
                         WavefrontCounters& c) {
-    begin_walk_shadow_light(in, count, work);
     // A segment of its own for every flight, beyond those of bounces.
     const auto segment = 2U * static_cast<uint32_t>(flight.bounce) + 1U +
                          (static_cast<uint32_t>(flight.number) + 1U) * 0x10000U;

@@ -1,4 +1,4 @@
-// surface/scattering.h - volume scattering: free flights and the phase function.
+// surface/scattering.h - volume scattering: free flights, places near lights, the phase function.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -95,6 +95,38 @@ OBSCURA_INLINE FreeFlight<F> sample_flight(const Vec3<F>& extinction,
     flight.passed = at_limit * (F(1.0f) / max(dot(probability, at_limit), least));
     return flight;
 }
+
+/// A ray through a medium past a light without size.
+template <typename F>
+struct PassedLight {
+    F ahead_m;  ///< from the ray's start to where it is nearest to the light; negative: behind
+    F aside_m;  ///< from there to the light, above 0
+    F end_m;    ///< of the part of the ray that is sampled, above 0
+
+    /// Angle at the light between start and end.
+    F angle() const {
+        return atan2(aside_m * end_m, aside_m * aside_m - ahead_m * (end_m - ahead_m));
+    }
+    /// Distance along the ray with a density that is inverse to the squared distance from the
+    /// light: equal angles are equally likely.
+    ///
+    /// In      u: uniform in [0, 1)
+    /// Source  Kulla and Fajardo, "Importance Sampling Techniques for Path Tracing in Participating
+    ///         Media", Computer Graphics Forum 31(4), 2012
+    F sample(const F& u) const {
+        const SinCos<F> turned = sin_cos_turn(angle() * u * exact_constant<F>(0.5 / pi_d));
+        const F across = aside_m * turned.cos + ahead_m * turned.sin;
+        const F along = turned.sin * (aside_m * aside_m + ahead_m * ahead_m);
+        return clamp(along / max(across, F(1e-30f)), F(0.0f), end_m);
+    }
+    /// Density of sample(), 1/m.
+    F pdf(const F& distance_m) const {
+        const F beyond = distance_m - ahead_m;
+        const F density =
+            aside_m / (max(angle(), F(1e-30f)) * (aside_m * aside_m + beyond * beyond));
+        return select(distance_m <= end_m, density, F(0.0f));
+    }
+};
 
 }  // namespace OBSCURA_ISA
 }  // namespace obscura

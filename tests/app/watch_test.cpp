@@ -48,6 +48,31 @@ TEST(Watch, EndsNothingAtOnceWhileFilesAreWrittenBeside) {
     EXPECT_EXIT(write_beside(), testing::ExitedWithCode(75), "written\n(.|\n)*E-TIME-LIMIT");
 }
 
+TEST(Watch, ASignalBetweenTwoRenderingsIsNotLost) {
+    const auto render_two = [] {
+        Log log;
+        const StopOnSignal command(StopOnSignal::Kind::farm_too);
+        { const Watch first("scene", log, {}); }
+        std::raise(SIGUSR1);
+        std::fputs("between\n", stderr);
+        const Watch second("scene", log, {});
+        std::fputs("goes on\n", stderr);
+    };
+    EXPECT_EXIT(render_two(), testing::ExitedWithCode(75), "^between\n(.|\n)*SIGUSR1");
+}
+
+/// What a time limit has stopped does not stop the next rendering.
+TEST(StopOnSignal, OnesThatFollowAreClearOfATimeLimit) {
+    const StopOnSignal command;
+    {
+        StopOnSignal first;
+        first.stop();
+        EXPECT_TRUE(command.flag());
+    }
+    const StopOnSignal second;
+    EXPECT_FALSE(second.flag());
+}
+
 TEST(Watch, ASignalEndsTheReadingOfACheckpointAtOnceTheTimeLimitDoesNot) {
     const auto read = [] {
         Log log;

@@ -406,6 +406,14 @@ TEST_F(Batch, MistakesHaveTheirPlace) {
     expect_result(run({"batch", "none.json"}), 67, "E-JOB-MISSING");
 }
 
+TEST_F(Batch, ADryRunTellsOfFilesThatTwoRenderingsHave) {
+    json job = small_job();
+    job["outputs"][1]["file"] = "out/./{asset}/{look}.png";
+    const ProgramRun got = batch(job, {"--dry-run"});
+    expect_result(got, 64, "E-USAGE-SAMEFILE");
+    EXPECT_THAT(got.err, HasSubstr("another image of this command has this file"));
+}
+
 /// Also what only the asset tells, or a file that is read in its turn.
 TEST_F(Batch, MistakesThatShowLaterHaveTheirPlace) {
     const auto fails = [&](const char* patch, int code, const char* id, const char* message) {

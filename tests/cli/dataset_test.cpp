@@ -336,6 +336,12 @@ TEST_F(DatasetCommand, WhatIsMissingIsMadeAgain) {
             EXPECT_TRUE(files("d") == whole) << file;
         }
     }
+    // What an earlier image of more objects has left goes.
+    const fs::path folder = folder_ / "d/000000";
+    fs::copy_file(folder / "mask/000001_000000.png", folder / "mask/000001_000001.png");
+    fs::copy_file(folder / "mask/000001_000000.png", folder / "mask_visib/000001_000001.png");
+    expect_result(dataset(options), 0, "OK");
+    EXPECT_TRUE(files("d") == whole);
     // Another step of the depths is another image.
     const ProgramRun other = dataset(joined(options, {"--skip-existing", "--depth-unit", "1"}));
     EXPECT_THAT(other.err, HasSubstr("skipped=0"));

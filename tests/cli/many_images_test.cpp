@@ -173,6 +173,21 @@ TEST_F(ManyImages, ViewsAreThoseOfSingleCommands) {
     EXPECT_NEAR(cv.at("camera").at("t")[2].get<double>(), 4, 1e-6);
 }
 
+TEST_F(ManyImages, AFolderThatCannotBeMadeFailsItsImagesAlone) {
+    folder_.write("views.json", R"({"views": [{"name": "a"}, {"name": "b"}, {"name": "c"}]})");
+    fs::create_directory(folder_ / "r");
+    folder_.write("r/b", "a file");
+    const Texts options = {"--views", "views.json", "--manifest", "m.jsonl"};
+    const ProgramRun got = render("box.gltf", joined(options, {"-o", "r/{view}/x.png"}));
+    expect_result(got, 73, "E-OUT-CREATE");
+    EXPECT_THAT(got.err, HasSubstr("1 of 3 images failed; the first: b: "));
+    EXPECT_TRUE(fs::exists(folder_ / "r/a/x.png") && fs::exists(folder_ / "r/c/x.png"));
+    EXPECT_EQ(lines("m.jsonl").size(), 3U);
+    // Where none can be written, nothing is rendered.
+    expect_result(
+        render("box.gltf", joined(options, {"-o", "r/b/{view}.png"})), 73, "E-OUT-CREATE");
+}
+
 TEST_F(ManyImages, OneFailureDoesNotEndTheRest) {
     folder_.write("views.json", R"({"views": [
         {"name": "a", "azimuth": 10}, {"name": "bad", "eye": [0, 0, 0], "target": [0, 0, 0]},

@@ -137,6 +137,23 @@ TEST(Layers, CoatedAndIridescentAndMixedSurfacesLoseNothing) {
     }
 }
 
+/// Light between facets takes their colour in each channel by itself.
+TEST(Layers, ColouredDielectricsReflectAsMetalsOfTheirColour) {
+    for (const float roughness : {0.3F, 0.6F, 1.0F}) {
+        LayeredParams<float> p = plain_layers(roughness * roughness);
+        const Vec3f color{1.0F, 0.34F, 0.05F};
+        p.base_color = {0, 0, 0};
+        p.f0 = color;
+        const Furnace dielectric = white_furnace(p, {0, 0, 1});
+        p.base_color = color;
+        p.metallic = 1;
+        const Furnace metal = white_furnace(p, {0, 0, 1});
+        EXPECT_NEAR(dielectric.mean.x, metal.mean.x, 0.003) << roughness;
+        EXPECT_NEAR(dielectric.mean.y, metal.mean.y, 0.003) << roughness;
+        EXPECT_NEAR(dielectric.mean.z, metal.mean.z, 0.003) << roughness;
+    }
+}
+
 TEST(Layers, StretchedFacetsLoseNothing) {
     for (const float roughness : {0.25F, 0.5F, 0.75F, 1.0F}) {
         for (const float strength : {0.3F, 0.6F, 1.0F}) {
@@ -249,8 +266,8 @@ void expect_bounded_weights(const LayeredParams<float>& p, float bound) {
         for (int n = 0; n < samples; ++n) {
             const auto sample = sample_layered(p, weights, wo, random_point(random));
             if (!(sample.at.pdf > 0)) continue;
-            const float gain =
-                std::max(weights.dielectric, weights.through_factor) + max_component(weights.metal);
+            const float gain = std::max(max_component(weights.dielectric), weights.through_factor) +
+                               max_component(weights.metal);
             ASSERT_LT(max_component(sample.at.value_cos) / sample.at.pdf, bound * gain + 1e-4F)
                 << "eta " << p.eta << ", alpha " << p.alpha.x << ", cosine " << cosine;
         }
@@ -325,7 +342,7 @@ TEST(Layers, StretchedHighlightsAreReciprocal) {
         // The light of further bounces is counted at the viewer's direction.
         const auto gain = [&](const Vec3d& view) {
             const LayeredWeights<double> w = layered_weights(p, view);
-            return n % 2 == 0 ? w.dielectric : w.metal.x;
+            return n % 2 == 0 ? w.dielectric.x : w.metal.x;
         };
         const Vec3d wo = normalize(convert<double>(direction_above(random, 0.02F)));
         const Vec3d wi = normalize(convert<double>(direction_above(random, 0.02F)));

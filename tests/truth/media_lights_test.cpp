@@ -111,6 +111,21 @@ TEST(MediaLights, PointLightsScatterOnceAsTheQuadratureSays) {
     }
 }
 
+/// The glow around a lamp in thin fog, through which most rays pass.
+TEST(MediaLights, APointLightInThinFogHasLittleNoise) {
+    const Vec3d place{0.05, 0.02, -0.2};
+    const PunctualLight lamp = lamp_at({0.05f, 0.02f, -0.2f});
+    const Film film = film_from_front(cube_of(fog({0.05f, 0.05f, 0.05f}, faint), {lamp}), {});
+    const double expected = scattered_once(0.05, 0, [&](const Vec3d& from) {
+        const Vec3d way = place - from;
+        const double d = length(way);
+        return Arriving{way * (1 / d), d, 10 / (d * d)};
+    });
+    const Mean seen = film_mean(film);
+    EXPECT_NEAR(seen.value, expected, 3e-3 * expected);
+    EXPECT_LT(seen.error, 6e-3 * expected);
+}
+
 /// So many that a tree chooses them.
 TEST(MediaLights, ManyPointLightsScatterOnceAsTheQuadratureSays) {
     std::vector<PunctualLight> lamps;

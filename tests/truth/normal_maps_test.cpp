@@ -57,6 +57,38 @@ void coat(Scene& scene) {
     std::fill_n(m.base_color, 3, 0.0f);
 }
 
+/// What a plate whose normals are all tilted towards +X mirrors of a sun, from one side or, all
+/// else turned through the origin, from the other.
+double seen_of_tilted(const Material& plate, bool has_coat, bool from_behind) {
+    SceneBuilder builder;
+    builder.quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, builder.material(plate));
+    Scene scene = builder.take();
+    if (has_coat) coat(scene);
+    scene.materials[0].flags |= material_double_sided;
+    add_image(scene.textures,
+              1,
+              pack_sampler(Wrap::repeat, Wrap::repeat, false, false, MipMode::linear, false),
+              [](int, int) { return 0xFFE080C0U; });
+    scene.primitives[0].uv_base[0] = 0;
+    scene.primitives[0].tangent_base = 8;
+    scene.attributes = {0, 1, 1, 1, 1, 0, 0, 0};
+    for (int corner = 0; corner < 4; ++corner)
+        scene.attributes.insert(scene.attributes.end(), {1, 0, 0, 1});
+    const float side = from_behind ? -1.0f : 1.0f;
+    PunctualLight sun;
+    sun.type = static_cast<int32_t>(PunctualType::directional);
+    sun.direction[0] = -0.92f * side;
+    sun.direction[2] = -0.39f * side;
+    std::fill_n(sun.intensity, 3, 10.0f);
+    scene.lights = {sun};
+    RenderOptions options;
+    options.width = options.height = 8;
+    options.samples_per_pixel = 4;
+    options.max_bounces = 0;
+    const Camera camera = look_at({0, 0, 1000 * side}, {0, 0, 0}, 1e-4f, 8, 8);
+    return film_mean(render_scene(std::move(scene), {}, camera, options).film).value;
+}
+
 /// A small plate with the normal map, far below a square lamp.
 Scene plate_under_a_lamp(const Material& plate) {
     SceneBuilder builder;
@@ -132,6 +164,15 @@ TEST(NormalMaps, ReflectAsMuchFromAnyDistance) {
         EXPECT_NEAR(
             seen_from_above(plate_under_a_lamp(metal), pixels).value, expected, 0.01 * expected)
             << map_side / pixels << " texels a pixel";
+}
+
+/// Seen from behind, normals are reversed: glTF 2.0, section 3.9.6.
+TEST(NormalMaps, AreReversedOnBackFacesAndSoAreThoseOfCoats) {
+    for (const bool has_coat : {false, true}) {
+        const double front = seen_of_tilted(polished_metal(), has_coat, false);
+        EXPECT_GT(front, 0.1) << has_coat;
+        EXPECT_NEAR(seen_of_tilted(polished_metal(), has_coat, true), front, 0.01 * front);
+    }
 }
 
 TEST(NormalMaps, OfCoatsToo) {

@@ -26,15 +26,14 @@ struct FacetReflection : Lobe {
 
     template <typename F>
     struct Weights {
-        F dielectric;   ///< scales the dielectric's facets, its share included
-        Vec3<F> metal;  ///< scales the metal's facets, its share included
-        F p_facet;      ///< of reflection and transmission together
+        Vec3<F> dielectric;  ///< scales the dielectric's facets, its share included
+        Vec3<F> metal;       ///< scales the metal's facets, its share included
+        F p_facet;           ///< of reflection and transmission together
     };
 
     template <typename F>
     OBSCURA_INLINE static void weigh(const LobeView<F>& view, LayeredWeights<F>& w) {
-        const F dielectric = F(1.0f) - view.p.metallic;
-        w.dielectric = dielectric * view.facets.factor;
+        w.dielectric = view.facets.dielectric_factor * (F(1.0f) - view.p.metallic);
         w.metal = view.facets.metal_factor * view.p.metallic;
     }
 

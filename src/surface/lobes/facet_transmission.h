@@ -62,8 +62,9 @@ OBSCURA_INLINE void split_transmission(const LayeredParams<F>& p,
     if (any(p.solid)) {
         const F dielectric = glass_factor(p, wo);
         factor = select(p.solid, dielectric, factor);
-        const F clear = select(p.solid, (one - p.metallic) * dielectric, w.dielectric);
-        w.dielectric = lerp(w.dielectric, clear, p.transmission);
+        const Vec3<F> clear =
+            select(p.solid, splat3((one - p.metallic) * dielectric), w.dielectric);
+        w.dielectric = w.dielectric + (clear - w.dielectric) * p.transmission;
     }
     w.through_factor = total * factor;
     w.transmitted = total * select(p.solid, one, passes);

@@ -78,7 +78,8 @@ struct FacetWeights {
     SpecularAlbedo<F> once;         ///< of all facets
     SpecularAlbedo<F> unstretched;  ///< of round ones with the same area
     F boundary;                     ///< what the dielectric reflects of a white sky
-    F factor;                       ///< of its facets: interreflection
+    F factor;                       ///< of its facets in the brightest channel: interreflection
+    Vec3<F> dielectric_factor;      ///< the same of each channel
     Vec3<F> metal_factor;
 };
 
@@ -110,14 +111,20 @@ OBSCURA_INLINE FacetWeights<F> facet_weights(const LayeredParams<F>& p, const Ve
     s.boundary = lerp(reflected, most * s.once.mirror, p.thin_film.strength);
     s.boundary = select(smooth, most, s.boundary);
     F mean = lerp(mean_schlick(max_f0, p.f90), most, p.thin_film.strength);
+    Vec3<F> means = p.f0 + (splat3(p.f90) - p.f0) * F(1.0f / 21);
+    means = means + (s.fresnel.dielectric - means) * p.thin_film.strength;
     const auto from_within =
         p.solid & (p.eta < one) & ((one - p.metallic) * (one - p.transmission) > F(0.0f));
     if (any(from_within)) {
         s.boundary = select(from_within, inner_boundary_albedo(p, wo), s.boundary);
         // Over all angles as much light goes out as comes in, by the squared indices.
-        mean = select(from_within, one - (one - mean) * p.eta * p.eta, mean);
+        const F gathered = p.eta * p.eta;
+        mean = select(from_within, one - (one - mean) * gathered, mean);
+        const Vec3<F> white = splat3(one);
+        means = select(from_within, white - (white - means) * gathered, means);
     }
     s.factor = interreflection(s.once.mirror, mean);
+    s.dielectric_factor = interreflection(s.once.mirror, means);
     s.boundary = min(s.boundary * s.factor, one);
     const Vec3<F> mean_metal = mean_schlick(p.base_color);
     s.metal_factor = interreflection(
