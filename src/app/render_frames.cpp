@@ -293,6 +293,10 @@ private:
 
     Result<void> render_one(size_t index, Log& log, MadeImage& made) {
         if (auto loaded = poses_.load_once(); !loaded) return loaded;
+        if (job_.request.lists.is_asked()) {
+            auto writable = check_image_files(poses_.whole(), {images()[index]});
+            if (!writable) return writable;
+        }
         if (index != 0) poses_.tell_again(log);
         if (job_.facts.empty()) find_facts(job_);
         const RenderStatistics& statistics = job_.renderer->statistics();

@@ -338,8 +338,10 @@ TEST_F(DatasetCommand, WhatIsMissingIsMadeAgain) {
     }
     // What an earlier image of more objects has left goes.
     const fs::path folder = folder_ / "d/000000";
-    fs::copy_file(folder / "mask/000001_000000.png", folder / "mask/000001_000001.png");
-    fs::copy_file(folder / "mask/000001_000000.png", folder / "mask_visib/000001_000001.png");
+    const size_t objects = read("d/000000/labels/000001.json").at("objects").size();
+    const std::string left = "/000001_00000" + std::to_string(objects) + ".png";
+    for (const char* masks : {"mask", "mask_visib"})
+        fs::copy_file(folder / "mask/000001_000000.png", folder / (masks + left));
     expect_result(dataset(options), 0, "OK");
     EXPECT_TRUE(files("d") == whole);
     // Another step of the depths is another image.
