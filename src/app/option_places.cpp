@@ -13,7 +13,7 @@ Error at_its_place(Error error, const OptionPlaces& places) {
     if (place == places.end()) {
         // Some name the value, too: "--view Standard".
         const size_t space = where.find(' ');
-        if (space == std::string::npos) return error;
+        if (space == std::string::npos || !where.starts_with("--")) return error;
         place = places.find(where.substr(0, space));
         what = where.substr(space + 1);
     }

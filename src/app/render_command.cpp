@@ -421,10 +421,13 @@ int run_scenes(std::vector<SceneRun>& runs,
     if (auto begun = begin_manifest(first); !begun) return report_failure(begun.error(), log);
     SceneRuns all(runs, log);
     all.render();
+    const int signal_before = received_stop_signal();
     const std::string counts =
         first.long_run.skips_existing ? fmt::format(" skipped={}", all.skipped()) : "";
     const Result<void> finished = all.is_stopped() ? Result<void>() : finish();
     const bool is_stopped = all.is_stopped();
+    if (signal_before == 0 && received_stop_signal() != 0)
+        return report_stop(received_stop_signal(), where, "all images are finished", log);
     std::vector<Error>& failures = all.failures();
     if (failures.empty() && !finished) return report_failure(finished.error(), log, counts);
     if (failures.empty()) return report_success(where, log, counts);

@@ -13,7 +13,7 @@ void ignore_broken_pipes();
 /// SIGINT ends it at once; further SIGTERMs are ignored.
 ///
 /// One that is made while another lives shares its signals: none is lost between the renderings of
-/// a command.
+/// a command. Its kind counts for nothing then.
 class StopOnSignal {
 public:
     enum class Kind {

@@ -42,10 +42,10 @@ Watch::Watch(std::string where, const Log& log, const WatchTimes& times)
              max_share_of_checkpoints),
       snapshots_(times.snapshot_interval_s.value_or(never_s),
                  times.snapshot_interval_s.value_or(never_s),
-                 max_share_of_snapshots),
-      thread_([this] { run(); }) {
+                 max_share_of_snapshots) {
     // Renderings may be shorter than a poll's period: a signal that came before is seen at once.
     if (received_stop_signal() != 0) end_now(false);
+    thread_ = std::thread([this] { run(); });
 }
 
 Watch::~Watch() {

@@ -143,13 +143,13 @@ std::vector<BoundedLight> bounded_lights(const LightTable& table,
     std::for_each(table.punctual.begin(), table.punctual.end(), add);
     std::for_each(table.triangles.begin(), table.triangles.end(), add);
     std::for_each(table.shapes.begin(), table.shapes.end(), add);
+    if (out.size() < min_tree_lights) out.clear();
     const auto is_punctual = [&](const BoundedLight& light) {
         return light.light < static_cast<int32_t>(table.punctual.size());
     };
     const bool is_apart = std::count_if(out.begin(), out.end(), is_punctual) <= max_points_apart &&
                           has_passable_boundaries(scene);
     if (is_apart) std::erase_if(out, is_punctual);
-    if (out.size() < min_tree_lights) out.clear();
     return out;
 }
 

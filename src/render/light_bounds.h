@@ -13,9 +13,9 @@ namespace obscura {
 /// With fewer lights, choosing by the point that is lit costs more than it gains.
 inline constexpr size_t min_tree_lights = 16;
 
-/// In media that shadow rays leave, so few punctual lights are chosen by the table: light that they
-/// scatter is sampled where paths are near them (stages/2_scatter_lights.h), which is not known
-/// before the light is.
+/// Where shadow rays leave media, so few punctual lights are chosen by the table: what of their
+/// light a medium scatters is sampled along the whole segment (stages/2_scatter_lights.h), which
+/// needs the light before the place, and the tree needs the place before the light.
 inline constexpr int max_points_apart = 8;
 
 /// The lights that are chosen by a tree: all with a place, that is without directional ones and the

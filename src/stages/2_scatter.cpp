@@ -169,12 +169,14 @@ ScatterCounts scatter(const SceneView& scene,
             way.exists = has_end & passable & Mask(has_points);
             if (any(sampled | way.exists)) {
                 const PathLanes here = path;  // only a copy has an address
-                const ScatteringPoint at{
-                    sampled, free.distance_m, next.throughput, scattering.w, here, way};
-                add_light_samples(walk, at, columns, out.shadow);
-                const Lanes cosine = dot(path.direction, next.direction);
-                next.pdf = select(sampled, henyey_greenstein(scattering.w, cosine), next.pdf);
-                if (has_points) turn_to_lights(walk, at, turn_random(path, flight), next);
+                const ScatteringPoint at{sampled,
+                                         free.distance_m,
+                                         next.throughput,
+                                         scattering.w,
+                                         turn_random(path, flight),
+                                         here,
+                                         way};
+                add_light_samples(walk, at, columns, next, out.shadow);
             }
         }
         const Mask alive =

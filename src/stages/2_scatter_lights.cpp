@@ -95,7 +95,8 @@ struct WalkLight {
     LightLanes light;
 };
 
-OBSCURA_INLINE PassedLight<Lanes> passed_light(const ScatteringPoint& at, const WalkLight& lit) {
+OBSCURA_INLINE EquiangularSegment<Lanes> equiangular_segment(const ScatteringPoint& at,
+                                                             const WalkLight& lit) {
     const PathLanes& path = at.path;
     const Vec3<Lanes> light = lit.place + lit.light.direction * lit.light.distance;
     const Vec3<Lanes> to_light = light - path.origin;
@@ -149,19 +150,88 @@ OBSCURA_INLINE void sample_along_way(const ScatteringPoint& at,
                                      WalkLight& lit) {
     const PathLanes& path = at.path;
     const WayThrough& way = at.way;
-    const PassedLight<Lanes> passed = passed_light(at, lit);
+    const EquiangularSegment<Lanes> segment = equiangular_segment(at, lit);
     const Mask is_near = on_way & ((!at.exists) | (u.x < Lanes(0.5f)));
-    const Lanes distance = select(is_near, passed.sample(u.y), at.distance_m);
+    const Lanes distance = select(is_near, segment.sample(u.y), at.distance_m);
     const Vec3<Lanes> extinguished = way.extinction * left_after(way, distance);
     const Lanes passes = dot(way.probability, left_after(way, way.end_m));
     const Lanes pdf = Lanes(0.5f) * (dot(way.probability, extinguished) +
-                                     (Lanes(1.0f) + passes) * passed.pdf(distance));
+                                     (Lanes(1.0f) + passes) * segment.pdf(distance));
     const Vec3<Lanes> throughput =
         path.throughput * way.albedo * extinguished * (Lanes(1.0f) / max(pdf, Lanes(1e-30f)));
     lit.throughput = select(on_way, throughput, lit.throughput);
     lit.place = select(is_near, path.origin + path.direction * distance, lit.place);
     choose(lit.light, is_near, sample_from(lit.place));
     lit.exists = is_near | lit.exists;
+}
+
+/// How paths go on from where they scatter: by the phase function, but near a light without size a
+/// quarter of them to where that is near. What scatters there lights this place, too, and the phase
+/// function seldom finds it.
+struct Turn {
+    Mask is_guided;
+    Vec3<Lanes> to_light;  ///< unit
+    static constexpr float guided_share = 0.25f;
+};
+
+OBSCURA_INLINE Turn turn_at(const SceneView& scene,
+                            const ScatteringPoint& at,
+                            const Vec3<Lanes>& place) {
+    const Vec3<Lanes> way = to_brightest_light(scene, place);
+    const Lanes distance = length(way);
+    const Lanes mean = dot(at.way.probability, at.way.extinction);
+    const Mask is_near =
+        at.exists & at.way.exists & (distance * mean < Lanes(3.0f)) & (distance > Lanes(1e-18f));
+    const Vec3<Lanes> any_axis{Lanes(0.0f), Lanes(0.0f), Lanes(1.0f)};
+    return {is_near, select(is_near, way * (Lanes(1.0f) / distance), any_axis)};
+}
+
+/// Density of a direction, 1/sr: also that which light sampling is weighed against.
+///
+/// In      phase: of the phase function
+OBSCURA_INLINE Lanes turn_pdf(const Turn& turn, const Vec3<Lanes>& direction, Lanes phase) {
+    constexpr float share = Turn::guided_share;
+    // Equal angles from the light are equally likely.
+    const Lanes sine = max(length(cross(direction, turn.to_light)), Lanes(1e-5f));
+    const Lanes guided = exact_constant<Lanes>(0.5 / (pi_d * pi_d)) / sine;
+    return select(turn.is_guided, Lanes(1.0f - share) * phase + Lanes(share) * guided, phase);
+}
+
+/// Directions of which a quarter is drawn to the light.
+///
+/// In      at.turn: uniform in [0, 1)^2; both kinds use it up
+OBSCURA_INLINE Vec3<Lanes> guided_direction(const ScatteringPoint& at, const Turn& turn) {
+    const Lanes share(Turn::guided_share);
+    const Mask to_light = at.turn.x < share;
+    // What is left of the first number is as good as new.
+    const Lanes left =
+        select(to_light, at.turn.x / share, (at.turn.x - share) / (Lanes(1.0f) - share));
+    const SinCos<Lanes> angle = sin_cos_turn(left * Lanes(0.5f));
+    const SinCos<Lanes> around = sin_cos_turn(at.turn.y);
+    const Vec3<Lanes> local{angle.sin * around.cos, angle.sin * around.sin, angle.cos};
+    const Vec3<Lanes> guided = normalize(to_world(frame_around(turn.to_light), local));
+    return select(
+        to_light, guided, scatter_direction(at.path.direction, at.anisotropy, {left, at.turn.y}));
+}
+
+/// In/Out  next: the paths with their turns by the phase function; direction, throughput and pdf
+///         change
+OBSCURA_INLINE void guide(const ScatteringPoint& at, const Turn& turn, PathLanes& next) {
+    const Mask guided = turn.is_guided;
+    if (any(guided)) next.direction = select(guided, guided_direction(at, turn), next.direction);
+    const Lanes phase = henyey_greenstein(at.anisotropy, dot(at.path.direction, next.direction));
+    const Lanes pdf = turn_pdf(turn, next.direction, phase);
+    next.throughput = select(guided, next.throughput * (phase / pdf), next.throughput);
+    next.pdf = select(at.exists, pdf, next.pdf);
+}
+
+/// Weight of sampled light that a path may also meet by its turn: of lights that have a size.
+OBSCURA_INLINE Lanes weight_beside_turns(int strategies, const LightLanes& light, Lanes by_turn) {
+    const Lanes one(1.0f);
+    const Mask has_size = light.pdf > Lanes(0.0f);
+    if (strategies == sample_bsdfs) return select(has_size, Lanes(0.0f), one);
+    if (strategies == sample_lights) return one;
+    return select(has_size, mis_weight(light.pdf, by_turn), one);
 }
 
 }  // namespace
@@ -183,45 +253,16 @@ bool has_point_lights(const SceneView& scene) {
     return false;
 }
 
-void turn_to_lights(const WalkingBatch& walk,
-                    const ScatteringPoint& at,
-                    const Vec2<Lanes>& u,
-                    PathLanes& next) {
-    const Vec3<Lanes> to_light = to_brightest_light(walk.scene, next.origin);
-    const Lanes distance = length(to_light);
-    const Lanes mean = dot(at.way.probability, at.way.extinction);
-    const Mask is_near = at.exists & (distance * mean < Lanes(3.0f)) & (distance > Lanes(1e-18f));
-    if (none(is_near)) return;
-    constexpr float share = 0.25f;
-    const Vec3<Lanes> axis = select(is_near,
-                                    to_light * (Lanes(1.0f) / distance),
-                                    Vec3<Lanes>{Lanes(0.0f), Lanes(0.0f), Lanes(1.0f)});
-    const Mask is_turned = u.x < Lanes(share);
-    // What is left of the first number is as good as new.
-    const Lanes left = select(
-        is_turned, u.x * Lanes(1.0f / share), (u.x - Lanes(share)) * Lanes(1.0f / (1.0f - share)));
-    const SinCos<Lanes> angle = sin_cos_turn(left * Lanes(0.5f));
-    const SinCos<Lanes> around = sin_cos_turn(u.y);
-    const Vec3<Lanes> local{angle.sin * around.cos, angle.sin * around.sin, angle.cos};
-    const Vec3<Lanes> turned = normalize(to_world(frame_around(axis), local));
-    const Vec3<Lanes> by_phase = scatter_direction(at.path.direction, at.anisotropy, {left, u.y});
-    const Vec3<Lanes> direction = select(is_turned, turned, by_phase);
-    const Lanes phase = henyey_greenstein(at.anisotropy, dot(at.path.direction, direction));
-    const Lanes sine = max(length(cross(direction, axis)), Lanes(1e-5f));
-    const Lanes pdf = Lanes(1.0f - share) * phase +
-                      Lanes(share) * exact_constant<Lanes>(0.5 / (pi_d * pi_d)) / sine;
-    next.direction = select(is_near, direction, next.direction);
-    next.throughput = select(is_near, next.throughput * (phase / pdf), next.throughput);
-    next.pdf = select(is_near, pdf, next.pdf);
-}
-
 void add_light_samples(const WalkingBatch& walk,
                        const ScatteringPoint& at,
                        const ScatterColumns& columns,
+                       PathLanes& next,
                        int& count) {
     const SceneView& scene = walk.scene;
     const PathLanes& path = at.path;
     const ShadingPoint point = point_to_light(at, columns.time);
+    const Turn turn = turn_at(scene, at, point.light_start);
+    guide(at, turn, next);
     LightDraw draw = draw_walk_light(scene, path, walk.flight);
     const Mask is_punctual = draw.light < LanesI(scene.lights.punctual_count);
     if (scene.lights.tree.nodes != nullptr) {
@@ -242,13 +283,10 @@ void add_light_samples(const WalkingBatch& walk,
     }
     const LightLanes& light = lit.light;
     const Lanes phase = henyey_greenstein(at.anisotropy, dot(path.direction, light.direction));
-    const int strategies = walk.batch.strategies;
-    Lanes weight(1.0f);
-    if (strategies == (sample_lights | sample_bsdfs))
-        weight = select(light.pdf > Lanes(0.0f), mis_weight(light.pdf, phase), weight);
+    const Lanes weight =
+        weight_beside_turns(walk.batch.strategies, light, turn_pdf(turn, light.direction, phase));
     Vec3<Lanes> radiance = lit.throughput * light.radiance_over_pdf * (phase * weight);
     Mask useful = lit.exists & light.valid;
-    if (strategies == sample_bsdfs) useful = useful & (light.pdf == Lanes(0.0f));
     if (columns.shadow_media == nullptr) {
         radiance =
             radiance * transmittance_to_light(scene, useful, path.medium_stack, light.distance);

@@ -45,6 +45,7 @@ struct ScatteringPoint {
     Lanes distance_m;        ///< along the path
     Vec3<Lanes> throughput;  ///< of what arrives here by the phase function
     Lanes anisotropy;
+    Vec2<Lanes> turn;       ///< uniform in [0, 1)^2, of the turn
     const PathLanes& path;  ///< as it arrives
     const WayThrough& way;  ///< exists where lights without size may be sampled all along
 };
@@ -59,27 +60,19 @@ Mask samples_lights(const WalkingBatch& walk, LanesI medium, Lanes ior);
 bool has_point_lights(const SceneView& scene);
 
 /// Samples one light at every point and appends the shadow rays to columns.shadows, of which there
-/// are `count` so far. Not inlined: only few scenes need it.
+/// are `count` so far. Near lights without size some of the paths turn towards them. Not inlined:
+/// only few scenes need it.
 ///
 /// A light without size is sampled all along the way instead, also of paths that do not scatter.
 ///
-/// Source  Veach, PhD thesis, 1997, ch. 9: multiple importance sampling, with the phase function,
-///         and of both ways to choose the place
+/// In/Out  next: the paths with their turns by the phase function
+/// Source  Veach, PhD thesis, 1997, ch. 9: multiple importance sampling, with the turns, and of the
+///         two ways to choose the place
 void add_light_samples(const WalkingBatch& walk,
                        const ScatteringPoint& point,
                        const ScatterColumns& columns,
+                       PathLanes& next,
                        int& count);
-
-/// Turns a quarter of the paths that scatter near a light without size to where the light is near:
-/// what scatters there lights this place, too, and the phase function seldom finds it.
-///
-/// In      u: uniform in [0, 1)^2
-/// In/Out  next: the paths with their turns by the phase function; direction, throughput and pdf
-///         change
-void turn_to_lights(const WalkingBatch& walk,
-                    const ScatteringPoint& at,
-                    const Vec2<Lanes>& u,
-                    PathLanes& next);
 
 }  // namespace OBSCURA_ISA
 }  // namespace obscura

@@ -96,9 +96,9 @@ OBSCURA_INLINE FreeFlight<F> sample_flight(const Vec3<F>& extinction,
     return flight;
 }
 
-/// A ray through a medium past a light without size.
+/// Equiangular sampling of the segment of a ray through a medium past a light without size.
 template <typename F>
-struct PassedLight {
+struct EquiangularSegment {
     F ahead_m;  ///< from the ray's start to where it is nearest to the light; negative: behind
     F aside_m;  ///< from there to the light, above 0
     F end_m;    ///< of the part of the ray that is sampled, above 0

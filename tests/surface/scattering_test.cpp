@@ -30,38 +30,39 @@ TEST(HenyeyGreenstein, SamplingInvertsTheCumulativeDistribution) {
 }
 
 /// The density is 1 in sum, and that of the samples: their share up to each place.
-TEST(PassedLight, IsTheDensityOfItsSamples) {
-    for (const PassedLight<double>& passed : {PassedLight<double>{1.5, 0.3, 4},
-                                              PassedLight<double>{-2, 0.5, 3},
-                                              PassedLight<double>{9, 0.001, 3},
-                                              PassedLight<double>{2, 1e-4, 4},
-                                              PassedLight<double>{1, 500, 2}}) {
+TEST(EquiangularSegment, IsTheDensityOfItsSamples) {
+    for (const EquiangularSegment<double>& segment : {EquiangularSegment<double>{1.5, 0.3, 4},
+                                                      EquiangularSegment<double>{-2, 0.5, 3},
+                                                      EquiangularSegment<double>{9, 0.001, 3},
+                                                      EquiangularSegment<double>{2, 1e-4, 4},
+                                                      EquiangularSegment<double>{1, 500, 2}}) {
         constexpr int steps = 4000;
         double before = 0;
         double sum = 0;
         for (int i = 1; i < steps; ++i) {
             const double u = static_cast<double>(i) / steps;
-            const double here = passed.sample(u);
+            const double here = segment.sample(u);
             ASSERT_GE(here, before);
-            const double middle = passed.sample(u - 0.5 / steps);
+            const double middle = segment.sample(u - 0.5 / steps);
             const double mean =
-                (passed.pdf(before) + 4 * passed.pdf(middle) + passed.pdf(here)) / 6;
+                (segment.pdf(before) + 4 * segment.pdf(middle) + segment.pdf(here)) / 6;
             sum += mean * (here - before);
             if (i > 4 && i + 4 < steps) {
-                ASSERT_NEAR(mean * (here - before) * steps, 1, 0.02) << passed.aside_m << ", " << u;
+                ASSERT_NEAR(mean * (here - before) * steps, 1, 0.02)
+                    << segment.aside_m << ", " << u;
             }
             before = here;
         }
         EXPECT_NEAR(sum, 1, 0.01);
-        EXPECT_EQ(passed.pdf(passed.end_m * 1.001), 0);
-        const PassedLight<float> single{static_cast<float>(passed.ahead_m),
-                                        static_cast<float>(passed.aside_m),
-                                        static_cast<float>(passed.end_m)};
-        const double half = passed.sample(0.5);
+        EXPECT_EQ(segment.pdf(segment.end_m * 1.001), 0);
+        const EquiangularSegment<float> single{static_cast<float>(segment.ahead_m),
+                                               static_cast<float>(segment.aside_m),
+                                               static_cast<float>(segment.end_m)};
+        const double half = segment.sample(0.5);
         EXPECT_NEAR(static_cast<double>(single.sample(0.5f)), half, 1e-4 * half);
         EXPECT_NEAR(static_cast<double>(single.pdf(single.sample(0.5f))),
-                    passed.pdf(half),
-                    2e-3 * passed.pdf(half));
+                    segment.pdf(half),
+                    2e-3 * segment.pdf(half));
     }
 }
 

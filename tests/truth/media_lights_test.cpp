@@ -274,6 +274,20 @@ TEST(MediaLights, LightSamplingAndThePhaseFunctionFindTheSameLight) {
     }
 }
 
+/// Fog that absorbs nothing cannot be seen before a sky that is the same everywhere. A faint lamp
+/// turns paths towards it.
+TEST(MediaLights, ALampInFogTakesNothingFromTheSky) {
+    PunctualLight lamp = lamp_at({0.3f, 0.1f, -0.2f});
+    std::fill_n(lamp.intensity, 3, 1e-5f);
+    FrontView view{.samples = 2048};
+    view.lighting.environment = constant_environment(1);
+    for (const float g : {-0.7f, 0.0f, 0.7f}) {
+        const Mean seen = film_mean(film_from_front(cube_of(fog({2, 2, 2}, 1, g), {lamp}), view));
+        EXPECT_LT(seen.error, 2e-3) << g;
+        EXPECT_NEAR(seen.value, 1, 4 * seen.error + 1e-3) << g;
+    }
+}
+
 /// Fog around the eye, at the index of air and of water: shadow rays stay inside. The boundary of
 /// water reflects a fiftieth.
 TEST(MediaLights, InTheMediumAroundTheEyeLampsAreSampledWhateverItsIndex) {
