@@ -111,7 +111,8 @@ OBSCURA_INLINE FacetWeights<F> facet_weights(const LayeredParams<F>& p, const Ve
     s.boundary = lerp(reflected, most * s.once.mirror, p.thin_film.strength);
     s.boundary = select(smooth, most, s.boundary);
     F mean = lerp(mean_schlick(max_f0, p.f90), most, p.thin_film.strength);
-    Vec3<F> means = p.f0 + (splat3(p.f90) - p.f0) * F(1.0f / 21);
+    Vec3<F> means{
+        mean_schlick(p.f0.x, p.f90), mean_schlick(p.f0.y, p.f90), mean_schlick(p.f0.z, p.f90)};
     means = means + (s.fresnel.dielectric - means) * p.thin_film.strength;
     const auto from_within =
         p.solid & (p.eta < one) & ((one - p.metallic) * (one - p.transmission) > F(0.0f));
