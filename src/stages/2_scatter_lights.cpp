@@ -19,16 +19,7 @@ namespace {
 constexpr int max_looked_at = 64;
 
 /// The uses of the random numbers with which a flight's end samples lights.
-enum class LightUse : uint32_t {
-    x,
-    y,
-    texture_x,
-    texture_y,
-    texture_level,
-    near_choice,
-    near_place,
-    count
-};
+enum class LightUse : uint32_t { x, y, texture_x, texture_y, texture_level, count };
 
 OBSCURA_INLINE LanesU hashed(LanesU path_key, const Flight& flight, LightUse use) {
     const uint32_t number =
@@ -55,13 +46,6 @@ OBSCURA_INLINE LightDraw draw_walk_light(const SceneView& scene,
     LightDraw draw = draw_light(scene, random);
     draw_light_pixel(scene, draw);
     return draw;
-}
-
-/// Random numbers that choose a place near a light.
-OBSCURA_INLINE Vec2<Lanes> near_random(const PathLanes& path, const Flight& flight) {
-    if (flight.number == 0) return flight_pair(path, flight, FlightPair::near_light);
-    return {unit_float<Lanes>(hashed(path.path_key, flight, LightUse::near_choice)),
-            unit_float<Lanes>(hashed(path.path_key, flight, LightUse::near_place))};
 }
 
 OBSCURA_INLINE Vec3<Lanes> texture_random(const PathLanes& path, const Flight& flight) {
@@ -279,7 +263,9 @@ void add_light_samples(const WalkingBatch& walk,
         const auto sample_from = [&](const Vec3<Lanes>& place) {
             return sample_light_from(scene, {place, point.time}, draw, texture);
         };
-        sample_along_way(at, on_way, near_random(path, walk.flight), sample_from, lit);
+        // A light without size leaves the numbers of the place on it unused. Chosen by these, the
+        // place on the way is stratified together with the light.
+        sample_along_way(at, on_way, draw.place, sample_from, lit);
     }
     const LightLanes& light = lit.light;
     const Lanes phase = henyey_greenstein(at.anisotropy, dot(path.direction, light.direction));

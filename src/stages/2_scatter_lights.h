@@ -16,9 +16,9 @@ struct WalkingBatch {
     const Flight& flight;
 };
 
-/// Pairs of random numbers of a bounce's first flight, beyond those of bounces: of its distance, of
-/// the turn at its end, and of the place near a light.
-enum class FlightPair : uint32_t { distance, turn, near_light, count };
+/// Pairs of random numbers of a bounce's first flight, beyond those of bounces: of its distance and
+/// of the turn at its end.
+enum class FlightPair : uint32_t { distance, turn, count };
 
 inline constexpr uint32_t first_flight_pair = 0x464C5954U;
 

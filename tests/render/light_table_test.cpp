@@ -150,6 +150,17 @@ TEST(LightTable, DimPunctualLightsKeepTheirFloor) {
     }
 }
 
+TEST(LightTable, HalfTheEnvironmentsPowerCounts) {
+    // A sun that brings as much light as half of an even sky: BSDF sampling finds only the sky.
+    SceneBuilder builder;
+    builder.quad({0, 0, 0}, {1, 0, 0}, {0, 0, 1}, builder.material({}));
+    Scene scene = builder.take();
+    scene.lights = {bulb(PunctualType::directional, 0.5f * 4 * pi_f * 3)};
+    const EnvironmentTable environment = sky(3);
+    const LightTable table = make_light_table(scene, &environment);
+    EXPECT_NEAR(table.environment_select, 0.5, 1e-3);
+}
+
 TEST(LightTable, DimLampsAreRaisedInProportionUpToAFifth) {
     const double faint = shares_of_kinds(1.0f, 1e-5f, 1.0f)[1];
     const double fainter = shares_of_kinds(1.0f, 0.5e-5f, 1.0f)[1];
