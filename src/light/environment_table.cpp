@@ -104,7 +104,8 @@ Result<EnvironmentTable> EnvironmentTable::create(const EnvironmentImage& image,
     table.height_ = image.height;
     table.rotation_deg_ = rotation_deg;
     table.copy_pixels(image.rgb, intensity);
-    table.build_tables(sampling);
+    table.sampling_ = sampling;
+    table.build_tables();
     return table;
 }
 
@@ -120,7 +121,7 @@ void EnvironmentTable::copy_pixels(const float* rgb, double intensity) {
     }
 }
 
-void EnvironmentTable::build_tables(EnvironmentSampling sampling) {
+void EnvironmentTable::build_tables() {
     const auto width = static_cast<size_t>(width_);
     const auto height = static_cast<size_t>(height_);
     std::vector<double> steradians(height);  // of one pixel
@@ -144,7 +145,7 @@ void EnvironmentTable::build_tables(EnvironmentSampling sampling) {
     const double mean = sum_of(importance) / (4 * pi_d);
     const auto weight = [&](int x, int y) {
         const double own = importance_of(pixel_at(x, y));
-        const bool compensated = sampling == EnvironmentSampling::compensated;
+        const bool compensated = sampling_ == EnvironmentSampling::compensated;
         return (compensated ? compensated_importance(own, mean) : own) *
                steradians[static_cast<size_t>(y)];
     };
@@ -152,6 +153,10 @@ void EnvironmentTable::build_tables(EnvironmentSampling sampling) {
         pixel_at(x, y)[3] = static_cast<float>(black_ ? 0.0 : probability * spread);
     };
     choice_.build(width_, height_, weight, set);
+}
+
+double EnvironmentTable::power_to_sample() const {
+    return sampling_ == EnvironmentSampling::compensated ? 0.5 * power_ : power_;
 }
 
 EnvironmentView EnvironmentTable::view() const {

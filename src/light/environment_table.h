@@ -51,6 +51,11 @@ public:
     /// Integral of the luminance over the sphere; 0 when the map is black.
     double power() const { return power_; }
 
+    /// The part of the power that counts in the choice of lights: half of it where BSDF sampling
+    /// finds the environment as well. A quarter would be too little under bright skies behind a
+    /// window or leaves; all of it takes too many samples from lamps.
+    double power_to_sample() const;
+
     /// True when the map is black: leave it out of light selection.
     bool black() const { return black_; }
 
@@ -60,7 +65,7 @@ public:
 private:
     EnvironmentTable() = default;
     void copy_pixels(const float* rgb, double intensity);
-    void build_tables(EnvironmentSampling sampling);
+    void build_tables();
 
     LargeArray<float> pixels_;  ///< see EnvironmentView
     PixelChoice choice_;
@@ -68,6 +73,7 @@ private:
     int height_ = 0;
     double rotation_deg_ = 0;
     double power_ = 0;
+    EnvironmentSampling sampling_ = EnvironmentSampling::compensated;
     bool black_ = true;
     int64_t repaired_values_ = 0;
 };

@@ -239,11 +239,6 @@ void collect_instance_emitters(Scene& scene, LightTable& table) {
     }
 }
 
-/// The part of the environment's power that counts in the choice of lights: BSDF sampling finds the
-/// environment as well. A quarter is too little under bright skies with a window or leaves before
-/// them, the whole takes too many samples from lamps.
-constexpr double environment_part = 0.5;
-
 /// Weights by power, with a minimum for each kind of light that is present. Power does not tell how
 /// near a light is: under a bright sky, a dim lamp still lights its corner.
 std::vector<double> choice_weights(const std::vector<double>& punctual,
@@ -255,7 +250,7 @@ std::vector<double> choice_weights(const std::vector<double>& punctual,
             total += x;
         return total;
     };
-    const double kinds[3] = {sum(punctual), sum(triangles), environment_part * environment};
+    const double kinds[3] = {sum(punctual), sum(triangles), environment};
     const double total = kinds[0] + kinds[1] + kinds[2];
     double scale[3] = {0, 0, 0};
     for (int k = 0; k < 3; ++k) {
@@ -264,7 +259,6 @@ std::vector<double> choice_weights(const std::vector<double>& punctual,
         const double least = k == 0 ? 0.2 : std::min(0.2, 50.0 * fraction);
         if (kinds[k] > 0) scale[k] = std::max(fraction, least) / kinds[k];
     }
-    scale[2] *= environment_part;
     std::vector<double> weights;
     weights.reserve(punctual.size() + triangles.size() + 1);
     for (const double w : punctual)
@@ -339,7 +333,7 @@ LightTable make_light_table(Scene& scene, const EnvironmentTable* environment) {
         triangles.push_back(shape_light_power(table, light));
     const bool has_environment = environment != nullptr && !environment->black();
     const double environment_power =
-        has_environment ? pi_d * radius * radius * environment->power() : 0.0;
+        has_environment ? pi_d * radius * radius * environment->power_to_sample() : 0.0;
     std::vector<double> weights = choice_weights(punctual, triangles, environment_power);
     if (weights.empty()) return table;
 

@@ -24,9 +24,12 @@ PunctualLight bulb(PunctualType type, float intensity) {
     return light;
 }
 
-EnvironmentTable sky(float radiance) {
+EnvironmentTable sky(float radiance,
+                     EnvironmentSampling sampling = EnvironmentSampling::compensated) {
     const ImageRgb32f image = *constant_environment(radiance);
-    return EnvironmentTable::create({image.width, image.height, image.pixels.data()}, 1, 0).value();
+    return EnvironmentTable::create(
+               {image.width, image.height, image.pixels.data()}, 1, 0, sampling)
+        .value();
 }
 
 TEST(LightTable, CoatIsItsFactorTimesTheMeanOfItsTexture) {
@@ -150,15 +153,16 @@ TEST(LightTable, DimPunctualLightsKeepTheirFloor) {
     }
 }
 
-TEST(LightTable, HalfTheEnvironmentsPowerCounts) {
-    // A sun that brings as much light as half of an even sky: BSDF sampling finds only the sky.
+TEST(LightTable, HalfOfAnEnvironmentThatBsdfSamplingFindsCounts) {
     SceneBuilder builder;
     builder.quad({0, 0, 0}, {1, 0, 0}, {0, 0, 1}, builder.material({}));
     Scene scene = builder.take();
-    scene.lights = {bulb(PunctualType::directional, 0.5f * 4 * pi_f * 3)};
-    const EnvironmentTable environment = sky(3);
-    const LightTable table = make_light_table(scene, &environment);
-    EXPECT_NEAR(table.environment_select, 0.5, 1e-3);
+    // A sun that brings as much light as an even sky of radiance 3.
+    scene.lights = {bulb(PunctualType::directional, 4 * pi_f * 3)};
+    const EnvironmentTable found = sky(3);
+    EXPECT_NEAR(make_light_table(scene, &found).environment_select, 1.0 / 3, 1e-3);
+    const EnvironmentTable alone = sky(3, EnvironmentSampling::by_radiance);
+    EXPECT_NEAR(make_light_table(scene, &alone).environment_select, 0.5, 1e-3);
 }
 
 TEST(LightTable, DimLampsAreRaisedInProportionUpToAFifth) {
