@@ -23,6 +23,9 @@ struct AssetOptions {
     int threads = 0;       ///< that read it; 0: every core that the process may use
     bool lenient = false;  ///< makes do with faults that would change the image, and warns
     bool ambient_occlusion = false;  ///< materials keep their occlusion textures
+    /// Frames a second of the animation that the layer `motion` tells movement between. Each pose
+    /// then takes three times as long; none given: only assets that stand still have that layer.
+    std::optional<double> fps;
 };
 
 struct CameraInfo {

@@ -22,12 +22,6 @@ py::object exception_of(const Error& error) {
     return type(text(error.id), text(error.place), text(error.text), error.code, py::tuple(also));
 }
 
-[[noreturn]] void raise(const Error& error) {
-    const py::object exception = exception_of(error);
-    PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(exception.ptr())), exception.ptr());
-    throw py::error_already_set();
-}
-
 /// Runs a call that gives a Result; throws its error.
 template <typename T>
 Result<T> run(SessionState& state,
@@ -100,7 +94,7 @@ std::shared_ptr<Image> render(const SessionPointer& state,
     AssetState& asset = open_asset_of(*state, given_asset);
     const RenderControl& asked = request.control;
     const Listeners listeners{state->log, asked.on_progress, asked.on_tile, asked.cancel_event};
-    const Turn turn(*state);
+    const Turn turn(*state, listeners.cancel);
     if (!asset.asset) throw py::value_error("the asset is closed");
     Call call;
     call.cancel = listeners.cancel && listeners.cancel.attr("is_set")().cast<bool>();
@@ -179,11 +173,12 @@ constexpr const char* open_doc =
     R"(Reads and checks a .gltf or .glb file with all that it refers to.
 
     open(path, *, scene=None, variant=None, animation=None, threads=0, lenient=False,
-         ambient_occlusion=False) -> Asset
+         ambient_occlusion=False, fps=None) -> Asset
 
 scene: name or index of one of several; variant: of KHR_materials_variants; animation: a name, an
 index as text, 'all' or 'none'; threads: 0 is every core; lenient: makes do with faults that would
-change the image, and warns; ambient_occlusion: materials keep their occlusion textures.
+change the image, and warns; ambient_occlusion: materials keep their occlusion textures; fps: frames
+a second, between which the layer 'motion' tells movement.
 
 Raises obscura.Error with the id, place and text of what is wrong.)";
 
@@ -214,6 +209,12 @@ in PNG and TIFF; quality: 1 to 100; page: a colour behind an image with alpha, (
 in the display's encoding.)";
 
 }  // namespace
+
+void raise(const Error& error) {
+    const py::object exception = exception_of(error);
+    PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(exception.ptr())), exception.ptr());
+    throw py::error_already_set();
+}
 
 void change_asset(AssetState& state, const std::function<Result<void>(Asset&)>& made) {
     const Turn turn(*state.session);

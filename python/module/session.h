@@ -42,7 +42,8 @@ struct AssetState {
 /// process that was forked after the library had been used, whose threads stayed behind.
 class Turn {
 public:
-    explicit Turn(SessionState& state);
+    /// In      cancel: a threading.Event that ends the waiting, too; null: none
+    explicit Turn(SessionState& state, const py::object& cancel = {});
     ~Turn();
     Turn(const Turn&) = delete;
     Turn& operator=(const Turn&) = delete;
@@ -51,6 +52,9 @@ private:
     const Inside inside_;
     SessionState& state_;
 };
+
+/// Throws an obscura.Error.
+[[noreturn]] void raise(const Error& error);
 
 /// Adds Session, Message and Tile.
 void bind_session(py::module_& module);

@@ -120,6 +120,7 @@ constexpr std::array asset_list = {
     field<&AssetOptions::threads>("threads", ""),
     field<&AssetOptions::lenient>("lenient", ""),
     field<&AssetOptions::ambient_occlusion>("ambient_occlusion", ""),
+    field<&AssetOptions::fps>("fps", ""),
 };
 
 constexpr std::array write_list = {

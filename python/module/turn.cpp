@@ -16,6 +16,9 @@ void abandon(std::optional<T>& value) {
     if (value) new T(std::move(*value));
 }
 
+/// The error of a rendering that was stopped, as the library has it.
+const Error stopped = {"E-STOPPED", "render", "stopped on request", 75, {}};
+
 }  // namespace
 
 SessionState::SessionState(py::object log_) : log(std::move(log_)) {
@@ -32,7 +35,7 @@ AssetState::~AssetState() {
     if (is_forked()) abandon(asset);
 }
 
-Turn::Turn(SessionState& state) : state_(state) {
+Turn::Turn(SessionState& state, const py::object& cancel) : state_(state) {
     if (state.owner == std::this_thread::get_id()) {
         throw std::runtime_error(
             "a callback may not use the session that calls it; take another session");
@@ -44,6 +47,7 @@ Turn::Turn(SessionState& state) : state_(state) {
         }
         if (!mine && PyErr_CheckSignals() != 0) throw py::error_already_set();
         if (!mine && Inside::is_ending()) throw std::runtime_error("Python is ending");
+        if (!mine && cancel && cancel.attr("is_set")().cast<bool>()) raise(stopped);
     }
     state.owner = std::this_thread::get_id();
     if (!state.is_closed) return;

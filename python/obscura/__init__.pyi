@@ -395,6 +395,7 @@ class Session:
         threads: int = 0,
         lenient: bool = False,
         ambient_occlusion: bool = False,
+        fps: float | None = None,
     ) -> Asset: ...
     def render(
         self,

@@ -5,12 +5,13 @@ SPDX-License-Identifier: Apache-2.0
 
 import numpy as np
 
+# Properties of materials, and how many numbers they take; of none, one without a list.
 _MATERIAL = {
-    "base_color": "pbrMetallicRoughness/baseColorFactor",
-    "metallic": "pbrMetallicRoughness/metallicFactor",
-    "roughness": "pbrMetallicRoughness/roughnessFactor",
-    "emissive": "emissiveFactor",
-    "alpha_cutoff": "alphaCutoff",
+    "base_color": ("pbrMetallicRoughness/baseColorFactor", (3, 4)),
+    "metallic": ("pbrMetallicRoughness/metallicFactor", ()),
+    "roughness": ("pbrMetallicRoughness/roughnessFactor", ()),
+    "emissive": ("emissiveFactor", (3,)),
+    "alpha_cutoff": ("alphaCutoff", ()),
 }
 
 
@@ -34,7 +35,10 @@ def _node(asset, node):
 
 def _parts(matrix):
     """Translation, rotation (x, y, z, w) and scale of a matrix for column vectors."""
-    matrix = np.asarray(matrix, dtype=np.float64)
+    try:
+        matrix = np.asarray(matrix, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise TypeError(f"matrix: expected 4x4 or 3x4 numbers, not {matrix!r}") from None
     if matrix.shape not in ((3, 4), (4, 4)) or not np.isfinite(matrix).all():
         raise ValueError("matrix: expected 4x4 or 3x4 finite numbers")
     if matrix.shape == (4, 4) and not np.allclose(matrix[3], (0, 0, 0, 1)):
@@ -57,11 +61,18 @@ def _parts(matrix):
     return matrix[:3, 3], np.linalg.eigh(k)[1][:, 3], scale
 
 
-def _check_range(name, value):
-    """Refuses values of materials that glTF does not allow."""
-    numbers = np.asarray(value, dtype=np.float64)
-    if not ((numbers >= 0) & (numbers <= 1)).all():
-        raise ValueError(f"{name}: expected numbers from 0 to 1, not {value}")
+def _numbers(name, value, sizes):
+    """Finite numbers: one where `sizes` is empty, else a list of one of these lengths."""
+    expected = f"{' or '.join(map(str, sizes))} numbers" if sizes else "a number"
+    try:
+        numbers = np.asarray(value, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise TypeError(f"{name}: expected {expected}, not {value!r}") from None
+    if numbers.shape not in ([(size,) for size in sizes] if sizes else [()]):
+        raise ValueError(f"{name}: expected {expected}, not {value!r}")
+    if not np.isfinite(numbers).all():
+        raise ValueError(f"{name}: expected finite numbers, not {value!r}")
+    return numbers
 
 
 def move(self, node, *, matrix=None, translation=None, rotation=None, scale=None):
@@ -71,7 +82,8 @@ def move(self, node, *, matrix=None, translation=None, rotation=None, scale=None
     or any of translation (x, y, z) in metres, rotation (x, y, z, w), scale (x, y, z): what is not
     given stays.
 
-    Raises ValueError where a matrix shears, obscura.Error 'E-SET-VALUE' where a value does not fit.
+    Raises TypeError or ValueError where a matrix shears or a value does not fit: then nothing is
+    changed.
     """
     if matrix is not None:
         if any(part is not None for part in (translation, rotation, scale)):
@@ -81,9 +93,13 @@ def move(self, node, *, matrix=None, translation=None, rotation=None, scale=None
         raise TypeError("move: expected a matrix, or any of translation, rotation and scale")
     place = _node(self, node)
     parts = {"translation": translation, "rotation": rotation, "scale": scale}
+    parts = {name: value for name, value in parts.items() if value is not None}
     for name, value in parts.items():
-        if value is not None:
-            self.set(f"{place}/{name}", value)
+        numbers = _numbers(name, value, (4 if name == "rotation" else 3,))
+        if name == "rotation" and not np.linalg.norm(numbers) > 0:
+            raise ValueError("rotation: expected a quaternion (x, y, z, w) that is not 0")
+    for name, value in parts.items():
+        self.set(f"{place}/{name}", value)
 
 
 def hide(self, node):
@@ -103,18 +119,20 @@ def set_material(self, material, **values):
     (r, g, b, a), linear; metallic, roughness, alpha_cutoff; emissive (r, g, b); all from 0 to 1.
     Textures are multiplied by them, as in the file. All else of a material by set().
 
-    Raises ValueError where a value is out of range: then nothing is changed.
+    Raises TypeError or ValueError where a value does not fit: then nothing is changed.
     """
     place = f"/materials/{_number('material', self.materials, material)}"
     unknown = values.keys() - _MATERIAL.keys()
     if unknown:
         raise TypeError(f"{sorted(unknown)[0]}: expected any of {', '.join(_MATERIAL)}")
     for name, value in values.items():
-        _check_range(name, value)
+        numbers = _numbers(name, value, _MATERIAL[name][1])
+        if not ((numbers >= 0) & (numbers <= 1)).all():
+            raise ValueError(f"{name}: expected numbers from 0 to 1, not {value!r}")
     for name, value in values.items():
         if name == "base_color" and len(value) == 3:
             value = [*value, 1]
-        self.set(f"{place}/{_MATERIAL[name]}", value)
+        self.set(f"{place}/{_MATERIAL[name][0]}", value)
 
 
 def assign_material(self, node, material):

@@ -89,7 +89,8 @@ Intrinsics read_intrinsics(const JsonReader& reader,
     }
     std::vector<double> k(9);
     if (read_matrix(reader, tree, "K", k)) {
-        if (!(k[0] > 0 && k[4] > 0) || k[1] != 0 || k[3] != 0 || k[6] != 0 || k[7] != 0) {
+        if (!(k[0] > 0 && k[4] > 0) || k[1] != 0 || k[3] != 0 || k[6] != 0 || k[7] != 0 ||
+            k[8] != 1) {
             reader.fault("K", value_id, "expected fx 0 cx, 0 fy cy, 0 0 1 with fx, fy above 0");
         }
         out.fx_px = k[0];
@@ -146,19 +147,6 @@ void read_model(const JsonReader& reader, const json& tree, CameraSettings& out)
     }
 }
 
-bool is_rotation(const Affined& a) {
-    constexpr double tolerance = 1e-3;
-    for (int i = 0; i < 3; ++i) {
-        for (int j = i; j < 3; ++j) {
-            double sum = 0;
-            for (const auto& row : a.m)
-                sum += row[i] * row[j];
-            if (!(std::abs(sum - (i == j ? 1 : 0)) < tolerance)) return false;
-        }
-    }
-    return determinant(a) > 0;
-}
-
 /// Rows of 4 numbers, 3 or 4 of them.
 bool read_pose(const JsonReader& reader, const json& tree, const char* key, Affined& out) {
     const bool nested = reader.count(key) == 3 || reader.count(key) == 12;
@@ -206,6 +194,19 @@ Affined read_place(const JsonReader& reader, const json& tree) {
 }
 
 }  // namespace
+
+bool is_rotation(const Affined& a) {
+    constexpr double tolerance = 1e-3;
+    for (int i = 0; i < 3; ++i) {
+        for (int j = i; j < 3; ++j) {
+            double sum = 0;
+            for (const auto& row : a.m)
+                sum += row[i] * row[j];
+            if (!(std::abs(sum - (i == j ? 1 : 0)) < tolerance)) return false;
+        }
+    }
+    return determinant(a) > 0;
+}
 
 Result<SceneCamera> load_camera_json(const std::filesystem::path& file, Log& log) {
     const Result<json> tree = read_json_file(

@@ -29,6 +29,9 @@ SceneCamera read_camera(const JsonReader& reader,
                         const nlohmann::json& tree,
                         std::optional<std::array<int, 2>> size_px);
 
+/// True where the 3x3 part is a rotation, within a thousandth.
+bool is_rotation(const Affined& a);
+
 /// True when an object has a key that says where such a camera is or how it projects.
 bool has_camera_keys(const JsonReader& reader);
 

@@ -142,6 +142,13 @@ obscura::Result<Image> render_image(Asset::Impl& asset,
     asset.has_images = true;
     RenderRequest request = asked;
     request.load = asset.asset.load();
+    const bool moves = view.time_s && !asset.info.animations.empty();
+    if (moves && !request.load.frame_step_s && has_layer(request.options, Aov::motion)) {
+        return fail(ExitCode::usage,
+                    "E-USAGE-CONFLICT",
+                    "aov",
+                    "motion tells movement from frame to frame: open the asset with fps");
+    }
     if (auto loaded = load_requested_camera(request, log); !loaded) return fail(loaded.error());
     if (auto placed = place_opencv(view, request.camera); !placed) return fail(placed.error());
     const obscura::Result<ChosenCamera> camera =
@@ -229,6 +236,8 @@ void Asset::reset() {
 
 Result<Asset> Session::open(const std::string& file, const AssetOptions& options) {
     return guarded<Asset>([&]() -> Result<Asset> {
+        if (const auto fits = check_asset_options(options); !fits)
+            return library_error(fits.error());
         const ThreadArena threads(options.threads);
         auto asset = std::make_shared<Asset::Impl>(impl_->sink, file, load_options_of(options));
         if (auto opened = asset->asset.open(asset->log); !opened)

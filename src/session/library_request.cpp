@@ -5,6 +5,7 @@
 #include "base/setting_names.h"
 #include "base/text.h"
 #include "camera/names.h"
+#include "gltf/camera_json.h"
 #include "math/warp.h"
 #include "scene/camera_setting_table.h"
 #include "session/framing.h"
@@ -165,13 +166,18 @@ void read_lens(const v0::View& view, CameraSettings& s, Checks& checks) {
 }
 
 /// A camera of the caller's own in place of the file's.
-SceneCamera placed_camera(const std::array<double, 16>& m, const v0::View& view) {
+SceneCamera placed_camera(const std::array<double, 16>& m, const v0::View& view, Checks& checks) {
     SceneCamera camera;
     camera.name = "world_from_camera";
     for (size_t row = 0; row < 3; ++row) {
         for (size_t column = 0; column < 4; ++column)
             camera.world_from_camera.m[row][column] = m[4 * row + column];
     }
+    const bool is_affine = m[12] == 0 && m[13] == 0 && m[14] == 0 && m[15] == 1;
+    checks.conflict(!is_affine || !gltf::is_rotation(camera.world_from_camera),
+                    "world-from-camera",
+                    "expected a rotation and a place: its last row is 0 0 0 1, and its 3x3 part "
+                    "neither scales, shears nor mirrors");
     camera.yfov_rad = view.fov_deg ? *view.fov_deg * radians_per_degree : default_yfov_rad;
     return camera;
 }
@@ -207,7 +213,7 @@ void read_camera(const v0::View& view, CameraRequest& out, Checks& checks) {
     checks.take(check_settings_agree(out.settings));
     checks.real("fov", view.fov_deg, 0.01, max_fov_deg(out.model, out.settings));
     if (view.fov_deg) out.yfov_rad = *view.fov_deg * radians_per_degree;
-    if (view.world_from_camera) out.loaded = placed_camera(*view.world_from_camera, view);
+    if (view.world_from_camera) out.loaded = placed_camera(*view.world_from_camera, view, checks);
     if (view.focus_on_px) {
         checks.reals("focus-on", view.focus_on_px, 0, 65535);
         out.focus_on_px = view.focus_on_px;
@@ -274,7 +280,16 @@ gltf::LoadOptions load_options_of(const v0::AssetOptions& options) {
     out.animation = options.animation;
     out.occlusion = options.ambient_occlusion;
     out.lenient = options.lenient;
+    if (options.fps) out.frame_step_s = 1 / *options.fps;
     return out;
+}
+
+Result<void> check_asset_options(const v0::AssetOptions& options) {
+    Checks checks;
+    checks.real("threads", options.threads, 0, 1024);
+    checks.real("fps", options.fps, 0.001, 1e6);
+    if (checks.error()) return fail(*checks.error());
+    return {};
 }
 
 Result<RenderRequest> request_of(const v0::View& view,
@@ -312,6 +327,7 @@ Result<DisplayEncoding> encoding_of(const v0::WriteOptions& options) {
     Checks checks;
     checks.conflict(options.bits != 8 && options.bits != 16, "bits", "8 and 16 are accepted");
     if (options.quality) checks.real("quality", *options.quality, 1, 100);
+    checks.real("exposure", options.exposure_ev, -50, 50);
     for (const float code : options.page.value_or(std::array<float, 3>{}))
         checks.real("page", static_cast<double>(code), 0, 1);
     if (checks.error()) return fail(*checks.error());

@@ -12,6 +12,9 @@ namespace obscura {
 /// The options with which the file is read.
 gltf::LoadOptions load_options_of(const v0::AssetOptions& options);
 
+/// Errors  64 E-USAGE-RANGE
+Result<void> check_asset_options(const v0::AssetOptions& options);
+
 /// Everything that an image is asked for, except outputs and the file.
 ///
 /// Errors  64 E-USAGE-RANGE a number is out of its range, E-USAGE-CHOICE an unknown name,

@@ -132,6 +132,16 @@ class Changes(support.Case):
         for a, b in zip(once, self.ids(asset)):
             np.testing.assert_array_equal(a, b)
 
+    def test_mistakes_change_nothing(self):
+        asset = self.session.open(support.CORNELL)
+        before = self.ids(asset)
+        with self.assertRaisesRegex(ValueError, "rotation"):
+            asset.move(0, translation=(0.3, 0, 0), rotation=(0, 0, 0, 0))
+        with self.assertRaisesRegex(ValueError, "emissive"):
+            asset.set_material(0, base_color=(0, 1, 0), emissive=(1,))
+        for a, b in zip(before, self.ids(asset)):
+            np.testing.assert_array_equal(a, b)
+
     def test_mistakes_are_named(self):
         asset = self.session.open(support.CORNELL)
         with self.assertRaises(obscura.Error) as caught:
@@ -150,6 +160,11 @@ class Changes(support.Case):
         for name, value in wrong.items():
             with self.assertRaisesRegex(ValueError, name):
                 asset.set_material(0, **{name: value})
+        for wrong in (0.5, "red", (1, 2), (1, 2, "x"), None):
+            with self.assertRaisesRegex((TypeError, ValueError), "base_color: expected 3 or 4"):
+                asset.set_material(0, base_color=wrong)
+        with self.assertRaisesRegex(TypeError, "matrix: expected"):
+            asset.move(0, matrix="x")
         with self.assertRaisesRegex(TypeError, "expected a matrix"):
             asset.move(0)
         with self.assertRaises(TypeError):

@@ -44,6 +44,44 @@ class Render(Case):
         self.assert_same_bits(image, read_exr(self.folder / "own.exr"))
         self.assertGreater(image["beauty"].max(), 0)
 
+    def test_motion_needs_the_time_between_frames(self):
+        file = ASSETS / "motion" / "motion.glb"
+        view, sampling = small_view(time_s=0.4), few_samples(aov=["motion"])
+        image = self.session.render(
+            self.session.open(file, fps=30), view, None, sampling
+        )
+        by_program = self.render_by_program(
+            file, "--time", "0.4", "--fps", "30", "--aov", "motion"
+        )
+        self.assert_same_bits(image, by_program)
+        self.assertGreater(np.abs(image["motion"]).max(), 0.1)
+        with self.assertRaisesRegex(obscura.Error, "fps"):
+            self.session.render(self.session.open(file), view, None, sampling)
+        still = self.session.render(self.session.open(CORNELL), view, None, sampling)
+        self.assertEqual(np.abs(still["motion"]).max(), 0)
+
+    def test_numbers_out_of_range_are_refused(self):
+        image = self.render()
+        for ev in (float("nan"), float("inf"), 51, -51):
+            with self.assertRaisesRegex(obscura.Error, "exposure"):
+                self.session.write(image, self.folder / "image.png", exposure_ev=ev)
+        self.assertFalse((self.folder / "image.png").exists())
+        for wrong in ({"threads": -1}, {"threads": 10**8}, {"fps": 0}, {"fps": float("nan")}):
+            with self.assertRaisesRegex(obscura.Error, "out of range"):
+                self.session.open(CORNELL, **wrong)
+        for place in (
+            np.diag([2.0, 2, 2, 1]),
+            np.diag([-1.0, 1, 1, 1]),
+            [[1, 0.5, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]],
+            [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [1, 2, 3, 4]],
+        ):
+            with self.assertRaisesRegex(obscura.Error, "rotation"):
+                self.render(view=small_view(world_from_camera=place))
+        for last in (0, 2):
+            with self.assertRaisesRegex(obscura.Error, "0 0 1"):
+                camera = obscura.OpenCvCamera(K=[[40, 0, 20], [0, 40, 12], [0, 0, last]])
+                self.render(view=small_view(opencv=camera))
+
     def test_arrays_are_the_memory_of_the_library(self):
         image = self.render(aov=["normal"])
         beauty, normal = image["beauty"], image["normal"]

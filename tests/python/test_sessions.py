@@ -93,6 +93,24 @@ class Sessions(Case):
         self.assertEqual(caught.exception.id, "E-STOPPED")
         self.assertEqual(self.render(cancel=threading.Event()).width, 40)
 
+    def test_waiting_for_a_turn_ends_by_cancel(self):
+        first, second = threading.Event(), threading.Event()
+        outcomes = []
+
+        def render(stop):
+            with self.assertRaises(obscura.Error) as caught:
+                self.session.render(self.asset, sampling=LONG, cancel=stop)
+            outcomes.append((stop, caught.exception.id))
+
+        threads = [threading.Thread(target=render, args=[stop]) for stop in (first, second)]
+        for thread in threads:
+            thread.start()
+        second.set()  # whether or not it is its turn, it need not wait for the other
+        threads[1].join(timeout=30)
+        self.assertEqual(outcomes, [(second, "E-STOPPED")])
+        first.set()
+        threads[0].join()
+
     def run_python(self, code, *arguments, **options):
         return subprocess.Popen(
             [sys.executable, "-c", textwrap.dedent(code), str(CORNELL), *arguments],
