@@ -59,25 +59,47 @@ std::string quoted_word(const std::string& word) {
     return out + "'";
 }
 
-/// Where a client's own files lie is unknown: an upload has its name alone.
-std::string file_word(const std::string& name) {
-    return serve::is_upload(name) ? fs::path(name).filename().string() : name;
+/// A file's name where a leading - would be taken for an option.
+std::string as_file(const std::string& name) {
+    return name.starts_with('-') ? "./" + name : name;
 }
 
-std::string command_line(const std::string& scene, const serve::Options& options) {
+/// How a file is named from where the server was started. Where a client's own files lie is
+/// unknown: an upload has its name alone.
+std::string file_word(const std::vector<fs::path>& roots, const std::string& name) {
+    if (serve::is_upload(name)) return as_file(fs::path(name).filename().string());
+    for (const fs::path& root : roots) {
+        std::error_code error;
+        if (fs::is_regular_file(root / name, error))
+            return as_file((root / name).lexically_normal().string());
+    }
+    return as_file(name);
+}
+
+/// What pictures have in common, whatever clients ask for.
+struct ServedFrom {
+    std::vector<fs::path> roots;
+    std::optional<std::string> ocio;
+};
+
+std::string command_line(const ServedFrom& from,
+                         const std::string& scene,
+                         const serve::Options& options) {
     RenderArguments texts;
     const std::vector<BoundOption> table = bind_all(std::span(render_option_groups()), texts);
-    std::string out = "obscura render " + quoted_word(file_word(scene));
+    std::string out = "obscura render " + quoted_word(file_word(from.roots, scene));
+    if (from.ocio) out += " --ocio " + quoted_word(*from.ocio);
     for (const auto& [key, value] : options.items()) {
         const BoundOption* const option = find_option(table, "--" + key);
         if (option == nullptr) continue;
         const bool is_file = key == "env" && value.is_string();
         const serve::Options shown =
-            is_file ? serve::Options(file_word(value.get<std::string>())) : value;
+            is_file ? serve::Options(file_word(from.roots, value.get<std::string>())) : value;
         for (const std::string& word : words_from_json(*option, shown))
             out += " " + quoted_word(word);
     }
-    return out + " -o " + quoted_word(fs::path(file_word(scene)).stem().string() + ".png");
+    const fs::path name = fs::path(scene).stem();
+    return out + " -o " + quoted_word(as_file(name.string() + ".png"));
 }
 
 Result<void> choose_roots(const ServeArguments& arguments, ServeRequest& request) {
@@ -120,11 +142,15 @@ Result<void> choose_token(const ServeArguments& arguments, serve::ServerOptions&
 
 }  // namespace
 
-serve::OptionReader image_options(const RenderArguments& common) {
+serve::OptionReader image_options(const RenderArguments& common,
+                                  const std::vector<fs::path>& roots) {
+    const ServedFrom from{roots, common.ocio};
     return {[common](const fs::path& scene, const serve::Options& options) {
                 return image_request(common, scene, options);
             },
-            command_line};
+            [from](const std::string& scene, const serve::Options& options) {
+                return command_line(from, scene, options);
+            }};
 }
 
 Result<ServeRequest> make_serve_request(const ServeArguments& arguments) {
@@ -141,7 +167,7 @@ Result<ServeRequest> make_serve_request(const ServeArguments& arguments) {
     request.server.service.ocio_file = arguments.render.ocio.value_or("");
     if (arguments.jobs) request.server.jobs.folder = *arguments.jobs;
     complete_jobs_options(arguments.render, request.server.jobs);
-    request.server.service.options = image_options(arguments.render);
+    request.server.service.options = image_options(arguments.render, request.server.service.roots);
     return request;
 }
 

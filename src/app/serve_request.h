@@ -37,6 +37,7 @@ Result<ServeRequest> make_serve_request(const ServeArguments& arguments);
 
 /// How pictures of a server are asked for: by options of `obscura render` that change what is
 /// seen; none names a file but the scene and --env.
-serve::OptionReader image_options(const RenderArguments& common);
+serve::OptionReader image_options(const RenderArguments& common,
+                                  const std::vector<std::filesystem::path>& roots = {});
 
 }  // namespace obscura::app

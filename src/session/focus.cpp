@@ -20,7 +20,9 @@ Result<double> depth_of_pixel(const PreparedScene& prepared,
                               const Camera& camera,
                               RenderOptions options,
                               const std::array<int, 2>& pixel) {
-    options.integrator = Integrator::depth;
+    options.integrator = Integrator::depth;  // it has no other layers
+    options.layers.clear();
+    options.light_groups = {};
     options.crop = PixelRect{pixel[0], pixel[1], 1, 1};
     const std::atomic<bool> never = false;
     const Result<RenderResult> result = render(prepared, camera, options, {}, never);

@@ -78,13 +78,16 @@ Result<ChosenCamera> OpenAsset::bring(const RenderRequest& request,
                              request.environment.value_or("").string(),
                              request.environment_intensity,
                              request.environment_rotation_deg,
+                             request.environment_follows_camera,
+                             request.catcher_ground,
                              request.isa};
     const bool is_there = prepared_for_ && prepared_for_->isa == wanted.isa;
     // The thickness of points and lines depends on the camera.
     const bool keeps_pose = is_there && prepared_for_->time == time && !is_changed_ &&
                             !has_points_lines(renderer.scene());
     const bool same = prepared_for_ == wanted;
-    if (same && keeps_pose) return renderer.look_again(request, log);
+    const bool turns_light = request.environment_follows_camera;
+    if (same && keeps_pose && !turns_light) return renderer.look_again(request, log);
     if (!is_there) renderer.start_anew();
     prepared_for_.reset();
     if (!same) {

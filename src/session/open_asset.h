@@ -78,6 +78,8 @@ private:
         ImageTime time;
         std::string environment;
         double environment_intensity = 1, environment_rotation_deg = 0;
+        bool environment_follows_camera = false;
+        bool catcher_ground = false;
         Isa isa = Isa::automatic;
 
         bool operator==(const PreparedFor&) const = default;

@@ -327,6 +327,45 @@ class PageTest(unittest.TestCase):
         self.wait_till_done()
         self.assertIn("boxes.glb", self.find("#picture").get_attribute("aria-label"))
 
+    def test_a_reloaded_page_has_its_file(self):
+        self.open_page()
+        self.browser.refresh()
+        self.wait_till_done()
+        self.assertIn("boxes.glb", self.find("#picture").get_attribute("aria-label"))
+
+    def test_of_files_that_open_at_once_the_last_one_wins(self):
+        self.open_page()
+        write_scene(self.root / "other.glb")
+        self.addCleanup((self.root / "other.glb").unlink)
+        self.browser.refresh()
+        self.wait_till_done()
+        # The first answer comes last.
+        self.script("""
+            const real = window.fetch;
+            window.fetch = async (path, request) => {
+              const isFirst = path === "/api/views" && request.body.includes("boxes");
+              const answer = await real(path, request);
+              if (isFirst) await new Promise((resolve) => setTimeout(resolve, 1500));
+              return answer;
+            };""")
+        for name in ("boxes.glb", "other.glb"):
+            self.find("#picture").send_keys("o")
+            [button] = [each for each in self.browser.find_elements(
+                By.CSS_SELECTOR, "#root-files button") if each.text == name]
+            button.click()
+        time.sleep(2.5)
+        self.wait_till_done()
+        self.assertIn("other.glb", self.find("#picture").get_attribute("aria-label"))
+
+    def test_other_layers_are_not_denoised(self):
+        self.open_page()
+        self.find("#picture").send_keys("d")
+        self.find("[name=integrator][value=normal]").click()
+        self.wait_till_done()
+        self.assertEqual(self.text("#errors"), "")
+        self.assertIn("--integrator normal", self.command())
+        self.assertNotIn("--denoise", self.command())
+
     def test_a_file_is_uploaded(self):
         self.browser.get(self.server.url)
         self.wait_for(lambda: self.find("#upload").is_displayed(), "the dialog")

@@ -176,6 +176,31 @@ TEST_F(ViewerTest, OtherSamplesBeginAnew) {
     EXPECT_EQ(finished(wish(4, 40, 20, 2))->image.width, 40);
 }
 
+TEST_F(ViewerTest, LightIsMadeAnewWhereItDependsOnTheWish) {
+    int number = 0;
+    const auto expect_as_direct = [&](const char* what, const auto& change) {
+        Wish wanted = wish(++number, 48, 27, 4);
+        wanted.rendering += std::to_string(number);
+        wanted.request.environment = "sky:20,40";
+        change(wanted.request);
+        EXPECT_EQ(finished(wanted)->image.codes, direct_codes(wanted)) << what;
+    };
+    const auto catches = [](RenderRequest& request) {
+        request.catcher_ground = true;
+        request.options.catcher_ground_m = -1.0f;
+    };
+    expect_as_direct("plain", [](RenderRequest& /*request*/) {});
+    expect_as_direct("a catcher", catches);
+    expect_as_direct("plain again", [](RenderRequest& /*request*/) {});
+    for (const double x : {3.0, -5.0}) {
+        expect_as_direct("light that follows the camera", [&](RenderRequest& request) {
+            request.camera.eye_m = Vec3d{x, 0, 10};
+            request.environment_follows_camera = true;
+        });
+    }
+    expect_as_direct("light that does not", [](RenderRequest& /*request*/) {});
+}
+
 TEST_F(ViewerTest, AnOlderWishThatComesLateChangesNothing) {
     viewer_->want(wish(2, 48, 27, 2));
     viewer_->want(wish(1, 32, 18, 2));

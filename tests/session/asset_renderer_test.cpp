@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <string>
+#include <vector>
 
 namespace obscura {
 namespace {
@@ -36,10 +38,13 @@ TEST(AssetRenderer, TheCameraIsChosenOnceThoughItIsFocused) {
     request.camera.settings.sensor_m = {0.036, 0.024};
     request.camera.settings.model = CameraModel::thin_lens;
     request.camera.focus_on_px = {16, 12};
+    const std::vector<std::string> layers = {"normal", "depth"};  // the focus ray has none
+    ASSERT_TRUE(choose_layers(layers, request));
     const Result<ChosenCamera> camera = renderer->prepare(request, {}, log);
     ASSERT_TRUE(camera) << camera.error().message;
     EXPECT_EQ(chosen, 1);
     EXPECT_EQ(focused, 1);
+    request.options.layers.clear();
 
     // The focus distance is that of the pixel's hit.
     RenderRequest depth = request;

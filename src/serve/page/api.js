@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 const tokenKey = "obscura-token";
+const fileKey = "obscura-file";
 const retryMs = 1000;
 const longestWaitMs = 100;
 
@@ -13,12 +14,23 @@ export class Problem extends Error {
   }
 }
 
-/** Moves the token from the address, where it would be seen and shared, to this tab's storage. */
+/**
+ * Moves the token from the address, where it would be seen and shared, to this tab's storage. Gives
+ * the file to open: the address' one, or that which was open before the page was reloaded.
+ */
 export function takeFragment() {
   const fragment = new URLSearchParams(location.hash.slice(1));
+  const isNew = location.hash || performance.getEntriesByType("navigation")[0]?.type === "navigate";
   if (fragment.has("token")) setToken(fragment.get("token"));
+  if (isNew) rememberFile(fragment.get("file"));
   if (location.hash) history.replaceState(null, "", location.pathname);
-  return fragment.get("file");
+  return sessionStorage.getItem(fileKey);
+}
+
+/** For when the page is reloaded; null: none. */
+export function rememberFile(file) {
+  if (file === null) sessionStorage.removeItem(fileKey);
+  else sessionStorage.setItem(fileKey, file);
 }
 
 export function setToken(token) {
@@ -225,7 +237,15 @@ export class View {
     return pixelsOf(await call(`${this.path}/matte?node=${encodeURIComponent(node)}`));
   }
 
+  /** The picture as a file; waits for the first one of a view that has just changed. */
   async image(format) {
-    return (await call(`${this.path}/image?format=${format}`)).blob();
+    for (;;) {
+      try {
+        return (await call(`${this.path}/image?format=${format}`)).blob();
+      } catch (error) {
+        if (error.id !== "E-VIEW-EMPTY" || this.isClosed) throw error;
+        await pause(retryMs / 4);
+      }
+    }
   }
 }

@@ -1,9 +1,11 @@
 // serve/page/page.js - joins the controls, the picture and the server; all starts here.
 // SPDX-License-Identifier: Apache-2.0
-import {Problem, View, callJson, hasToken, setToken, takeFragment, upload} from "/api.js";
 import {
-  controls, currentPlace, element, form, listEnvironment, optionsOf, placedCamera, showAsset,
-  showChoices, showFiles, showTones, showValues, wishSize,
+  Problem, View, callJson, hasToken, rememberFile, setToken, takeFragment, upload,
+} from "/api.js";
+import {
+  controls, currentPlace, currentPose, element, form, listEnvironment, optionsOf, placedCamera,
+  showAsset, showChoices, showFiles, showTones, showValues, wishSize,
 } from "/panel.js";
 import {draw, fitted, moveOfKey, tint, watchPointers, wipe} from "/stage.js";
 
@@ -178,10 +180,11 @@ async function pickObject(x, y) {
 async function pickFocus(x, y) {
   const [width, height] = wishSize();
   const place = currentPlace(camera);
+  const pose = currentPose(view);
   const hit = await view.pick(x, y);
   if (!hit.node) return tell("Nothing is there to focus on");
   const pixel = `${Math.floor(x * width)},${Math.floor(y * height)}`;
-  sharp = {pixel, size: `${width}x${height}`, place, point: hit.point};
+  sharp = {pixel, size: `${width}x${height}`, place, pose, point: hit.point};
   controls.focus.value = "";
   controls.fstop.value ||= "2.8";
   tell(`Focus on ${hit.node}`);
@@ -268,17 +271,23 @@ const listener = {
   onGone: () => openFile(view.file, {isAgain: true}),
 };
 
+/** Of models that are chosen while others are on their way, the last one wins. */
+let lastOpening = 0;
+
 /** Opens a file; again, with the view as it is, when the server has forgotten it. */
-async function openFile(file, {isAgain = false} = {}) {
+async function openFile(file, {isAgain = false, opening = ++lastOpening} = {}) {
+  if (opening !== lastOpening) return;
   showBusy(`Reading ${file.split("/").pop()}…`);
   await attempt("open", async () => {
     const opened = await View.open(file, listener);
+    if (opening !== lastOpening) return opened.close();
     view?.close();
     view = opened;
+    rememberFile(file);
     if (!isAgain) showOpened();
     wish();
   });
-  showBusy(null);
+  if (opening === lastOpening) showBusy(null);
 }
 
 function openFromList(file) {
@@ -305,10 +314,12 @@ async function take(file) {
     throw new Problem(415, {id: "not opened", place: file.name, text});
   }
   byId("open-dialog").close();
-  const onProgress = (share) => showBusy(`Sending ${file.name}…`, share);
+  const opening = isEnvironment ? lastOpening : ++lastOpening;
+  const show = (...busy) => { if (opening === lastOpening) showBusy(...busy); };
+  const onProgress = (share) => show(`Sending ${file.name}…`, share);
   onProgress(0);
-  const sent = await upload(file, onProgress).finally(() => showBusy(null));
-  if (!isEnvironment) return openFile(sent);
+  const sent = await upload(file, onProgress).finally(() => show(null));
+  if (!isEnvironment) return openFile(sent, {opening});
   listEnvironment(sent, file.name);
   controls.env.value = sent;
   wish();
@@ -333,6 +344,7 @@ function save(format) {
 
 async function copyCommand() {
   const {value} = byId("command");
+  if (!value) return;
   try {
     await navigator.clipboard.writeText(value);
   } catch {  // without permission, or served from another machine without TLS
@@ -445,6 +457,10 @@ function start(file) {
 }
 
 const wanted = takeFragment();
+addEventListener("hashchange", () => {  // the printed address, in a tab that has the page already
+  takeFragment();
+  location.reload();
+});
 byId("token-dialog").addEventListener("cancel", (event) => event.preventDefault());
 byId("token-form").addEventListener("submit", (event) => {
   event.preventDefault();

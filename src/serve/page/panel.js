@@ -58,13 +58,19 @@ function cameraOptions({view, camera}) {
   return index === "" ? {} : {camera: nameOrIndex(view.asset.cameras, index)};
 }
 
+/** What the picked point may move with: the pixel shows something else at another pose. */
+export function currentPose(view) {
+  return JSON.stringify(assetOptions(view));
+}
+
 /** What is sharp stays so when the camera moves: the pixel then shows something else. */
 function lensOptions({view, camera, sharp}, size) {
   if (!controls.fstop.value) return {};
   const fstop = Number(controls.fstop.value);
   if (controls.focus.value) return {fstop, "focus-distance": Number(controls.focus.value)};
   if (!sharp) return {fstop};
-  const isAsPicked = sharp.place === currentPlace(camera) && sharp.size === size.join("x");
+  const isAsPicked = sharp.place === currentPlace(camera) && sharp.size === size.join("x") &&
+    sharp.pose === currentPose(view);
   if (isAsPicked) return {fstop, "focus-on": sharp.pixel};
   const depth = depthOf(camera ?? placedCamera(view), sharp.point);
   return depth > 0 ? {fstop, "focus-distance": Number(depth.toPrecision(5))} : {fstop};
@@ -92,7 +98,8 @@ function lookOptions() {
   if (display.selectedIndex > 0) options.display = display.value;
   if (display.selectedIndex > 0 || tone.selectedIndex > 0) options.view = tone.value;
   if (controls.integrator.value !== "path") options.integrator = controls.integrator.value;
-  if (controls.denoise.checked) options.denoise = true;
+  const isLight = controls.integrator.value === "path";  // other layers have no noise
+  if (controls.denoise.checked && isLight) options.denoise = true;
   return options;
 }
 
