@@ -142,8 +142,10 @@ obscura::Result<Image> render_image(Asset::Impl& asset,
     asset.has_images = true;
     RenderRequest request = asked;
     request.load = asset.asset.load();
-    const bool moves = view.time_s && !asset.info.animations.empty();
-    if (moves && !request.load.frame_step_s && has_layer(request.options, Aov::motion)) {
+    const std::optional<std::string>& animation = request.load.animation;
+    const bool plays = animation ? *animation != "none" : view.time_s.has_value();
+    if (plays && !asset.info.animations.empty() && !request.load.frame_step_s &&
+        has_layer(request.options, Aov::motion)) {
         return fail(ExitCode::usage,
                     "E-USAGE-CONFLICT",
                     "aov",

@@ -57,8 +57,13 @@ class Render(Case):
         self.assertGreater(np.abs(image["motion"]).max(), 0.1)
         with self.assertRaisesRegex(obscura.Error, "fps"):
             self.session.render(self.session.open(file), view, None, sampling)
-        still = self.session.render(self.session.open(CORNELL), view, None, sampling)
-        self.assertEqual(np.abs(still["motion"]).max(), 0)
+        with self.assertRaisesRegex(obscura.Error, "fps"):
+            self.session.render(
+                self.session.open(file, animation="all"), small_view(), None, sampling
+            )
+        for asset in (self.session.open(CORNELL), self.session.open(file, animation="none")):
+            still = self.session.render(asset, view, None, sampling)
+            self.assertEqual(np.abs(still["motion"]).max(), 0)
 
     def test_numbers_out_of_range_are_refused(self):
         image = self.render()
