@@ -8,6 +8,7 @@
 #include "scene/alike_textures.h"
 #include "scene/edge_scale.h"
 #include "scene/split_curves.h"
+#include "scene/stretch.h"
 #include "scene/thin_walls.h"
 #include "scene/touching_media.h"
 
@@ -96,7 +97,7 @@ Result<void> make_lighting(PreparedScene::Impl& impl, const LightingOptions& lig
             return {};
         }
         log.info("the scene has no light: using the built-in studio (" + setting("env") +
-                 " FILE chooses another)");
+                 " chooses another)");
     }
     Result<void> made = make_environment(impl, lighting, source);
     if (made) impl.lights = make_light_table(impl.scene, impl.environment.get());
@@ -139,6 +140,7 @@ SceneView PreparedScene::Impl::view() const {
     out.attributes = scene.attributes.data();
     out.primitives = scene.primitives.data();
     out.instances = scene.instances.data();
+    out.stretches = has_stretched_instances(scene);
     if (!scene.shapes.empty() || !scene.spheres.empty() || !scene.curve_points.empty()) {
         // Lanes that hit shapes also read the mesh tables, at index 0, and ignore the values.
         static constexpr float zeros[16] = {};

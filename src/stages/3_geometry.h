@@ -82,6 +82,42 @@ OBSCURA_INLINE void set_face(float scale, const Vec3<Lanes> (&p)[3], HitGeometry
 /// What the caller needs of a hit: AOVs start no rays and need no offset.
 enum class HitUse { attributes, start_rays };
 
+/// HitGeometry::normal and smooth_shift, where vertices have normals.
+///
+/// In  p: the corners, where they are at the time of the hit
+template <HitUse use>
+OBSCURA_INLINE void interpolate_normal(const SceneView& scene,
+                                       const HitLanes& hit,
+                                       const Vec3<Lanes> (&p)[3],
+                                       HitGeometry& g) {
+    const LanesI normal_base = g.primitive.integer<&Primitive::normal_base>();
+    Mask smooth = normal_base != LanesI(no_attribute);
+    if (g.has_shapes) smooth = smooth & !g.shapes;
+    if (none(smooth)) return;
+    Vec3<Lanes> n[3];
+    for (int k = 0; k < 3; ++k) {
+        const LanesI word = normal_base + g.corner[k] * LanesI(3);
+        n[k] = read_corner3(scene.attributes, select(smooth, word, LanesI(0)), g.one_triangle);
+    }
+    if (scene.motion.normals != nullptr) {
+        const CornerVectors moved = moved_corners(
+            scene, scene.motion.normals, {g.primitive, g.corner, hit.time}, {{n[0], n[1], n[2]}});
+        for (int k = 0; k < 3; ++k)
+            n[k] = moved.at[k];
+    }
+    if constexpr (use == HitUse::start_rays) {
+        g.smooth_shift =
+            select(smooth, smooth_surface_shift(g, p, n, g.position), splat3(Lanes(0.0f)));
+    }
+    if (scene.stretches) {
+        const CornerVectors equal =
+            equal_in_world(scene, hit.instance, hit.time, {{n[0], n[1], n[2]}});
+        for (int k = 0; k < 3; ++k)
+            n[k] = equal.at[k];
+    }
+    g.normal = select(smooth, normalize(weighted(g, n)), g.ng);
+}
+
 /// Fills `g` in place because copies are slow.
 template <HitUse use>
 OBSCURA_INLINE void find_geometry(const SceneView& scene, const HitLanes& hit, HitGeometry& g) {
@@ -118,29 +154,7 @@ OBSCURA_INLINE void find_geometry(const SceneView& scene, const HitLanes& hit, H
     set_face(scene.edge_scale, p, g);
     g.normal = g.ng;
     g.smooth_shift = splat3(Lanes(0.0f));
-    const LanesI normal_base = g.primitive.integer<&Primitive::normal_base>();
-    Mask smooth = normal_base != LanesI(no_attribute);
-    if (g.has_shapes) smooth = smooth & !g.shapes;
-    if (any(smooth)) {
-        Vec3<Lanes> n[3];
-        for (int k = 0; k < 3; ++k) {
-            const LanesI word = normal_base + g.corner[k] * LanesI(3);
-            n[k] = read_corner3(scene.attributes, select(smooth, word, LanesI(0)), g.one_triangle);
-        }
-        if (scene.motion.normals != nullptr) {
-            const CornerVectors moved = moved_corners(scene,
-                                                      scene.motion.normals,
-                                                      {g.primitive, g.corner, hit.time},
-                                                      {{n[0], n[1], n[2]}});
-            for (int k = 0; k < 3; ++k)
-                n[k] = moved.at[k];
-        }
-        g.normal = select(smooth, normalize(weighted(g, n)), g.ng);
-        if constexpr (use == HitUse::start_rays) {
-            g.smooth_shift =
-                select(smooth, smooth_surface_shift(g, p, n, g.position), splat3(Lanes(0.0f)));
-        }
-    }
+    interpolate_normal<use>(scene, hit, p, g);
     g.offset = use == HitUse::start_rays ? rounding_offset(g, p) : Lanes(0.0f);
 }
 

@@ -1,4 +1,4 @@
-// stages/3_motion.h - instances and vertices interpolated to the time of the hit.
+// stages/3_motion.h - instances and vertices at the time of the hit.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -35,6 +35,13 @@ CornerVectors moved_corners(const SceneView& scene,
                             const float* table,
                             const HitCorners& corners,
                             const CornerVectors& still);
+
+/// Normals at the corners, divided by the lengths that they have in world space, so that they
+/// weigh the same there as in a mesh without an instance. Not inlined: few scenes stretch.
+CornerVectors equal_in_world(const SceneView& scene,
+                             LanesI instance,
+                             Lanes time,
+                             const CornerVectors& normals);
 
 /// In  instance: records; lanes in world space may have any
 OBSCURA_INLINE InstanceMaps instance_maps(const SceneView& scene, LanesI instance, Lanes time) {

@@ -131,6 +131,7 @@ struct SceneView {
     const int32_t* curve_segments = nullptr;  ///< first point of each
     const Primitive* primitives = nullptr;
     const Instance* instances = nullptr;
+    bool stretches = false;  ///< some instance: see scene/stretch.h
     const Material* materials = nullptr;
     const MaterialLayers* layers = nullptr;
     const Medium* media = nullptr;            ///< null: no mesh bounds a medium
