@@ -87,7 +87,8 @@ public:
     /// Gives all that a node draws another material of the file for the images that follow,
     /// whatever the variant. Other nodes that draw the same mesh keep theirs.
     ///
-    /// node: index in nodes(); material: in AssetInfo::materials. Errors: E-SET-UNKNOWN.
+    /// node: index in nodes(); material: in AssetInfo::materials. Errors: E-SET-UNKNOWN; the next
+    /// render() tells where the mesh lacks what the material needs: E-MESH-TEXCOORD.
     Result<void> assign_material(std::size_t node, std::size_t material);
     /// Undoes what set() and assign_material() did; the next image reads the file again.
     void reset();

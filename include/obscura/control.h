@@ -19,7 +19,8 @@ struct Tile {
     std::size_t row_floats;  ///< from one row of the area to the next
 };
 
-/// Nothing of it but `isa` changes a bit of the image. Callbacks must not throw.
+/// Nothing of it but `isa` changes a bit of the image. What callbacks throw ends the
+/// call with the error E-INTERNAL, or E-MEM.
 struct Control {
     int threads = 0;           ///< 0: every core that the process may use
     std::string isa = "auto";  ///< "baseline", "avx2", "avx512"; images agree to rounding only

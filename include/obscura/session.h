@@ -14,8 +14,8 @@ OBSCURA_BEGIN_API
 
 /// Renders as the program `obscura` does, with the same bits.
 ///
-/// Prints nothing, throws nothing, handles no signals and changes no
-/// setting of the process or of other libraries. A session and its assets are used by one thread
+/// Prints nothing, throws nothing, handles no signals and changes no setting of the process or of
+/// other libraries. A session and its assets are used by one thread
 /// at a time; several sessions work side by side.
 class OBSCURA_API Session {
 public:

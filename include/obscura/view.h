@@ -88,7 +88,7 @@ enum class Background { environment, transparent, color };
 
 /// The light around the asset, and the size of points and lines.
 struct Look {
-    std::string environment;  ///< a file, .exr .hdr .png .jpg; empty: the asset's own light
+    std::string environment;  ///< .exr .hdr .png .jpg, "studio", "sky:30,40"; empty: the asset's
     double environment_intensity = 1;
     double environment_rotation_deg = 0;  ///< about +Y, counter-clockwise seen from above
     Background background = Background::environment;

@@ -9,6 +9,7 @@
 #include "app/render_options.h"
 #include "app/unused_options.h"
 #include "base/json/json_file.h"
+#include "base/name_search.h"
 #include "image/output_format.h"
 #include "image/write.h"
 #include "session/image_names.h"
@@ -58,7 +59,13 @@ void read_options(const JsonReader& reader, const json& tree, JobRun& run) {
         const std::string name = "--" + key;
         const BoundOption* const found = find_option(table, name);
         if (found == nullptr || is_of_command(name)) {
-            inside.fault(key, "E-JOB-KEY", "there is no such option for a job's pictures");
+            std::vector<std::string> names;
+            for (const BoundOption& option : table)
+                names.push_back(long_name(option.info));
+            inside.fault(key,
+                         "E-JOB-KEY",
+                         "there is no such option for a job's pictures" + near_names(name, names) +
+                             "; `obscura help render` lists them, here without the hyphens");
             return;
         }
         const std::string expected = set_from_json(*found, options->at(key));
@@ -208,6 +215,7 @@ private:
         for (JobRun& run : job_.runs) {
             run.arguments.asset = names[run.asset];
             run.arguments.list.manifest = job_.manifest;
+            if (job_.manifest) run.places["--manifest"] = json_pointer_part("manifest");
         }
     }
 

@@ -65,6 +65,7 @@ Result<void> add_scene(const DatasetArguments& arguments,
         render->part_by = PartBy::frames;
         render->lists.part_offset = number;
     }
+    request.dataset.is_shared = part || render->long_run.skips_existing;
     request.dataset.scenes.push_back(folder);
     request.scenes.push_back({std::move(texts), std::move(*render)});
     return {};

@@ -3,16 +3,18 @@
 #include "app/list_options.h"
 
 #include "app/command_line.h"
+#include "app/distinct_files.h"
 #include "app/option_readers.h"
 #include "app/render_command.h"
 #include "app/render_options.h"
 #include "app/render_request.h"
+#include "base/name_search.h"
 #include "session/image_names.h"
 
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <set>
+#include <map>
 #include <system_error>
 #include <utility>
 
@@ -55,14 +57,6 @@ constexpr Entry entries[] = {
 // clang-format on
 
 /// The names of all files that each scene writes, as patterns.
-std::vector<std::filesystem::path> patterns_of(const RenderRequest& request) {
-    std::vector<std::filesystem::path> patterns = request.outputs;
-    if (request.segmentation) patterns.push_back(*request.segmentation);
-    if (request.long_run.has_checkpoint && !request.long_run.checkpoint.empty())
-        patterns.push_back(request.long_run.checkpoint);
-    return patterns;
-}
-
 std::string asset_name(const RenderArguments& arguments) {
     if (!arguments.asset.empty()) return arguments.asset;
     return std::filesystem::path(arguments.scene_file).stem().string();
@@ -118,6 +112,19 @@ Result<void> check_scene_files(const std::vector<SceneRun>& runs) {
     return {};
 }
 
+/// Why a file of two renderings is refused.
+const char* why_one_file(const RenderRequest& a, const RenderRequest& b) {
+    if (a.lists.asset != b.lists.asset) {
+        return "a file's name must tell scenes apart; expected {asset} in it, such as "
+               "out/{asset}.png";
+    }
+    if (a.lists.look != b.lists.look) {
+        return "a file's name must tell looks apart; expected {look} in it, and looks whose names "
+               "differ in more than signs that files' names cannot have";
+    }
+    return "two outputs, or looks of one name, have this file; give them different names";
+}
+
 }  // namespace
 
 Result<std::vector<RenderArguments>> arguments_of_scenes(const RenderArguments& arguments) {
@@ -156,18 +163,18 @@ Result<void> check_scenes(const std::vector<SceneRun>& runs) {
     if (first.standard_output) return conflict_of("--output");
     if (first.statistics) return conflict_of("--stats");
     if (first.crypto_manifest) return conflict_of("--crypto-manifest");
-    std::set<std::filesystem::path> seen;
+    std::map<std::filesystem::path, const RenderRequest*> seen;
     for (const SceneRun& run : runs) {
         const RenderRequest& request = run.request;
         // What else is in a name tells the images of one scene apart.
         const NameFields fields{request.lists.asset, "", "", 1, request.lists.look};
         for (const std::filesystem::path& pattern : patterns_of(request)) {
-            if (seen.insert(name_by_pattern(pattern, fields)).second) continue;
+            const auto [before, is_new] =
+                seen.try_emplace(name_by_pattern(pattern, fields), &request);
+            if (is_new) continue;
             if (auto there = check_scene_files(runs); !there) return there;
-            return conflict(pattern.string(),
-                            "a file's name must tell scenes and looks apart; expected {asset} in "
-                            "it, such as out/{asset}.png, and {look} where a job has several, "
-                            "each with a name of its own");
+            auto refused = conflict(pattern.string(), why_one_file(*before->second, request));
+            return fail(at_its_place(std::move(refused.value()), run.places));
         }
     }
     return {};

@@ -7,6 +7,7 @@
 #include "app/list_options.h"
 #include "app/listed_poses.h"
 #include "app/memory_option.h"
+#include "app/other_parts.h"
 #include "app/outcome.h"
 #include "app/progress.h"
 #include "app/render_job.h"
@@ -258,6 +259,7 @@ class SceneRuns {
 public:
     SceneRuns(std::vector<SceneRun>& runs, Log& log) : runs_(runs), log_(log) {
         meter_exposures(runs_, kept_, log_);
+        note_files_of_other_parts(runs_, kept_);
         std::erase_if(runs_, [](const SceneRun& run) { return run.is_of_another_part; });
         drop_unneeded(kept_, runs_);
         for (const SceneRun& run : runs)
@@ -380,12 +382,12 @@ Error all_failures(std::vector<Error> failures, size_t runs) {
     return out;
 }
 
-/// Begins the manifest anew, unless it holds what others have told.
+/// Makes the manifest, anew unless it holds what others have told.
 Result<void> begin_manifest(const RenderRequest& request) {
     const ListRequest& lists = request.lists;
     const bool is_shared = request.part || request.long_run.skips_existing || lists.shares_manifest;
-    if (!lists.manifest || lists.lists_only || request.check || is_shared) return {};
-    const Result<Manifest> manifest = Manifest::open(*lists.manifest, true);
+    if (!lists.manifest || lists.lists_only || request.check) return {};
+    const Result<Manifest> manifest = Manifest::open(*lists.manifest, !is_shared);
     if (!manifest) return fail(manifest.error());
     return {};
 }

@@ -422,6 +422,12 @@ Result<void> render_all(Job& job, Progress& progress) {
     return done;
 }
 
+Result<void> note_all_files(Job& job) {
+    ListedPoses poses(job);
+    if (auto listed = poses.find_images(job.log); !listed) return listed;
+    return note_files(job, poses.list().images);
+}
+
 Result<void> list_all(Job& job) {
     ListedPoses poses(job);
     if (auto listed = poses.find_images(job.log); !listed) return listed;

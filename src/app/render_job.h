@@ -114,6 +114,12 @@ Result<void> make_image(
 /// Errors  those of loading, posing and make_image; 75 E-LOCKED images are left to others
 Result<void> render_all(Job& job, Progress& progress);
 
+/// Notes the names of all files that rendering would write, as if an earlier rendering of the
+/// command wrote them.
+///
+/// Errors  those of opening the asset; 64 E-USAGE-SAMEFILE
+Result<void> note_all_files(Job& job);
+
 /// --dry-run: prints the names of all files that rendering would write.
 Result<void> list_all(Job& job);
 

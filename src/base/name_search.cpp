@@ -109,4 +109,17 @@ std::string names_instead(std::string_view wanted,
     return "; the " + std::string(things) + " are " + listed(all);
 }
 
+std::vector<std::string> distinct_names(std::vector<std::string> names) {
+    std::set<std::string> taken(names.begin(), names.end());
+    std::set<std::string> used;
+    for (std::string& name : names) {
+        if (used.insert(name).second) continue;
+        const std::string stem = name;
+        for (int number = 2; !taken.insert(name).second; ++number)
+            name = stem + "-" + std::to_string(number);
+        used.insert(name);
+    }
+    return names;
+}
+
 }  // namespace obscura

@@ -1,4 +1,4 @@
-// base/name_search.h - finds names by a pattern, and those that a mistyped one is near to.
+// base/name_search.h - finds names by a pattern or near a mistyped one, and tells equal ones apart.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -27,5 +27,8 @@ std::string names_instead(std::string_view wanted,
 
 /// The names near to a mistyped one, as above; empty: there are none.
 std::string near_names(std::string_view wanted, const std::vector<std::string>& names);
+
+/// The texts, made different by -2, -3 and so on behind those that were there before.
+std::vector<std::string> distinct_names(std::vector<std::string> names);
 
 }  // namespace obscura

@@ -1,8 +1,10 @@
-// base/setting_names.cpp - spells the names of settings in messages, for API or command line.
+// base/setting_names.cpp - spells the names of settings in messages, for whom they are meant.
 // SPDX-License-Identifier: Apache-2.0
 #include "base/setting_names.h"
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 namespace obscura {
 
@@ -10,6 +12,44 @@ namespace {
 
 /// Marks a name: the unit separator, which occurs in no sentence.
 constexpr char mark = '\x1f';
+
+/// Settings whose fields in the library have other names than options.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 26> other_fields = {
+    {{"ao-distance", "ao_distance_m"},
+     {"blade-rotation", "blade_rotation_deg"},
+     {"env", "environment"},
+     {"environment-rotation", "environment_rotation_deg"},
+     {"exposure", "exposure_ev"},
+     {"exposure-time", "exposure_s"},
+     {"far", "far_m"},
+     {"float", "float32"},
+     {"focal-length", "focal_length_m"},
+     {"focus-distance", "focus_distance_m"},
+     {"focus-on", "focus_on_px"},
+     {"fov", "fov_deg"},
+     {"lens-radius", "lens_radius_m"},
+     {"line-width", "line_width_px"},
+     {"mag", "magnification_m"},
+     {"near", "near_m"},
+     {"ocio", "ocio_config"},
+     {"occlusion", "ambient_occlusion"},
+     {"point-size", "point_size_px"},
+     {"sensor", "sensor_m"},
+     {"shutter", "shutter_s"},
+     {"size", "width"},
+     {"spp", "samples_per_pixel"},
+     {"stereo", "stereo_m"},
+     {"time", "time_s"},
+     {"wire-width", "wire_width_px"}}};
+
+std::string field_name(const std::string& name) {
+    for (const auto& [setting, field] : other_fields) {
+        if (setting == name) return std::string(field);
+    }
+    std::string out = name;
+    std::replace(out.begin(), out.end(), '-', '_');
+    return out;
+}
 
 bool is_of_name(char c) {
     return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-';
@@ -33,7 +73,10 @@ std::string spell_settings(std::string_view text, SettingNames names) {
             ++i;
         std::string name(text.substr(begin, i - begin));
         if (names == SettingNames::options) {
-            out += "--" + name;
+            // One option has both, by what it is given.
+            out += "--" + (name == "exposure-time" ? "shutter" : name);
+        } else if (names == SettingNames::fields) {
+            out += field_name(name);
         } else {
             std::replace(name.begin(), name.end(), '-', '_');
             out += name;

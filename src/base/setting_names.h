@@ -1,4 +1,4 @@
-// base/setting_names.h - spells the names of settings in messages, for API or command line.
+// base/setting_names.h - spells the names of settings in messages, for whom they are meant.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -9,7 +9,8 @@ namespace obscura {
 
 /// How a message spells the names of settings.
 enum class SettingNames {
-    plain,   ///< "focus_distance": for programs that fill in fields
+    plain,   ///< "focus_distance": of jobs and of the server
+    fields,  ///< "focus_distance_m": of the library and of Python, with their units
     options  ///< "--focus-distance": for people at the command line
 };
 

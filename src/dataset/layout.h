@@ -27,7 +27,8 @@ struct Dataset {
     std::filesystem::path root;
     std::vector<SceneFolder> scenes;
     Formats formats;
-    int count = 0;  ///< images of each scene
+    int count = 0;           ///< images of each scene
+    bool is_shared = false;  ///< other processes may be making images of it
 };
 
 inline constexpr double min_depth_unit_mm = 1e-6;

@@ -200,8 +200,10 @@ private:
             if (is_first && out_.is_inside(pixel)) {
                 const size_t index = out_.image_index(pixel);
                 out_.node[index] = node;
-                if (node >= 0) out_.material[index] = material_of(scene_, rays, i);
-                out_.depth_m[index] = depth_of(origin + direction * t);
+                if (node >= 0) {
+                    out_.material[index] = material_of(scene_, rays, i);
+                    out_.depth_m[index] = depth_of(origin + direction * t);
+                }
             }
             // A ray that grazes a surface meets it again until it begins far enough behind it.
             Passed passed{rays.hit_surface(i)};

@@ -30,7 +30,7 @@ struct RayLabels {
     std::vector<int32_t> node;
     std::vector<int32_t> material;  ///< the same surface's, in Scene::materials; -1 likewise
     /// Metres along the view axis, of a fisheye and an image of all directions from the eye;
-    /// 0: nothing there.
+    /// 0 where `node` is -1.
     std::vector<float> depth_m;
     std::vector<Silhouette> silhouettes;  ///< of the nodes that have any, ascending
 

@@ -5,7 +5,7 @@
 #include "base/atomic_file.h"
 #include "base/json/json.h"
 #include "base/json/json_file.h"
-#include "session/image_names.h"
+#include "base/name_search.h"
 
 #include <algorithm>
 #include <array>
@@ -314,7 +314,7 @@ Result<void> write_all(const Dataset& dataset, Log& log) {
         const Result<std::vector<Record>> records = read_records(dataset, scene, log);
         if (!records) return fail(records.error());
         const SceneFolder& folder = dataset.scenes[scene];
-        if (records->empty()) remove_empty_folders(folder.folder);
+        if (records->empty() && !dataset.is_shared) remove_empty_folders(folder.folder);
         Result<void> written;
         if (dataset.formats.bop && !records->empty()) written = write_bop(folder, *records, models);
         if (written && dataset.formats.nerf) written = write_nerf(folder, *records);

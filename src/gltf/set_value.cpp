@@ -58,6 +58,8 @@ Result<SetValue> check_set_value(const std::string& pointer,
     const bool is_finite =
         std::all_of(value.begin(), value.end(), [](double x) { return std::isfinite(x); });
     if (!is_finite) return bad_value(pointer, "its numbers must be finite");
+    if (found->property.path == ChannelPath::visible && value[0] != 0 && value[0] != 1)
+        return bad_value(pointer, "it takes 1, shown, or 0, hidden");
     if (is_quaternion(found->property)) {
         std::array<double, 4> quaternion{};
         std::copy_n(value.begin(), quaternion.size(), quaternion.begin());

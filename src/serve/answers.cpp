@@ -91,6 +91,20 @@ int simple_status_of(const Error& error) {
     }
 }
 
+void replace_path(std::string& text, const std::filesystem::path& file, const std::string& name) {
+    const std::string path = file.string();
+    for (size_t at = 0; (at = text.find(path, at)) != std::string::npos; at += name.size())
+        text.replace(at, path.size(), name);
+}
+
+Error with_name(Error error, const std::filesystem::path& file, const std::string& name) {
+    replace_path(error.where, file, name);
+    replace_path(error.message, file, name);
+    for (Error& other : error.also)
+        other = with_name(std::move(other), file, name);
+    return error;
+}
+
 std::string error_text(const Error& error) {
     constexpr size_t longest = 4000;
     std::string out;

@@ -5,6 +5,7 @@
 #include "base/json/json.h"
 
 #include "serve/viewer.h"
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,12 @@ int http_status_of(const Error& error);
 
 /// The same in few words, for clients that tell only success, their own faults and the server's.
 int simple_status_of(const Error& error);
+
+/// Puts the name that the client knows a file by in place of its path.
+void replace_path(std::string& text, const std::filesystem::path& file, const std::string& name);
+
+/// The same in all that an error says.
+Error with_name(Error error, const std::filesystem::path& file, const std::string& name);
 
 /// A line for each error, "E-... place: text", as people read it; cut off before it is a page.
 std::string error_text(const Error& error);

@@ -4,6 +4,7 @@
 
 #include "base/sha256.h"
 
+#include "serve/answers.h"
 #include "serve/beside.h"
 #include "serve/connections.h"
 #include "serve/drake_image.h"
@@ -65,7 +66,7 @@ void route_drake(Routes& routes,
             make_drake_image(**scene, {*wanted, settings->labels, *request, is_in_vain});
         if (file) return file_answer(std::move(*file), wanted->image);
         if (!is_in_vain) scenes.forget(**scene);
-        return fail(file.error());
+        return fail(with_name(file.error(), (*scene)->file, "scene"));
     };
     routes.post_for_people("/render", render);
 }

@@ -29,21 +29,6 @@ constexpr std::array<LayerTitle, 9> layer_titles = {{{"path", "Beauty"},
                                                      {"uv", "Texture coordinates"},
                                                      {"heat", "Cost of rays"}}};
 
-/// A text about a file with the name that the client knows it by.
-void replace_path(std::string& text, const std::filesystem::path& file, const std::string& name) {
-    const std::string path = file.string();
-    for (size_t at = 0; (at = text.find(path, at)) != std::string::npos; at += name.size())
-        text.replace(at, path.size(), name);
-}
-
-Error with_name(Error error, const std::filesystem::path& file, const std::string& name) {
-    replace_path(error.where, file, name);
-    replace_path(error.message, file, name);
-    for (Error& other : error.also)
-        other = with_name(std::move(other), file, name);
-    return error;
-}
-
 Error no_such_view(const std::string& view) {
     return {ExitCode::usage,
             "E-SERVE-UNKNOWN",
@@ -111,16 +96,17 @@ Result<Json> Service::open_view(const std::string& file) {
         return fail(ExitCode::usage, "E-SERVE-NAME", file, "expected a .glb or .gltf file");
     Result<RenderRequest> request = options_.options.request(*scene, Options::object());
     if (!request) return fail(request.error());
+    const std::string name = name_for_people(file);
     Open open{
-        file, *scene, {{scene->string(), file}}, std::make_shared<Viewer>(*scene, request->load)};
+        file, *scene, {{scene->string(), name}}, std::make_shared<Viewer>(*scene, request->load)};
     const Result<LookAt> camera = open.viewer->open({0, std::move(*request), ""});
-    if (!camera) return fail(with_name(camera.error(), *scene, file));
+    if (!camera) return fail(with_name(camera.error(), *scene, name));
     Json out;
     std::string id;
     const std::shared_ptr<Viewer> viewer = open.viewer;
     std::vector<std::string> warnings = viewer->warnings();
     for (std::string& warning : warnings)
-        replace_path(warning, *scene, file);
+        replace_path(warning, *scene, name);
     out["asset"] = asset_answer(viewer->scene(), warnings);
     out["camera"] = camera_answer(*camera);
     // What is closed to make room goes when nobody holds the lock.
@@ -168,7 +154,8 @@ Result<Json> Service::wish(const std::string& view, const Options& options) {
         number = ++known->second.wishes;
         const auto env = found->find("env");
         if (env != found->end() && *env != options.at("env"))
-            known->second.names[env->get<std::string>()] = options.at("env").get<std::string>();
+            known->second.names[env->get<std::string>()] =
+                name_for_people(options.at("env").get<std::string>());
     }
     open->viewer->want({number, std::move(*request), rendering_of(*found)});
     return Json{{"wish", number}, {"command", options_.options.command(open->file, options)}};

@@ -125,7 +125,7 @@ Result<void> set_flat(const CameraBasis& basis,
         return refuse("E-CAM-LENS",
                       setting("focal-length"),
                       "a focal length gives an angle only together with the film's size; add " +
-                          setting("sensor") + " WxH in millimetres, such as 36x24");
+                          setting("sensor") + ", its width and height");
     }
     const double distance = s.focal_length_m ? film_distance(s, is_lens, focus) : 0;
     const FilmPlane film = flat_film(basis, s, size, distance);
@@ -295,8 +295,8 @@ Result<std::optional<double>> chosen_exposure(const CameraSettings& s) {
     if (!s.shutter_s && !s.iso) return std::optional<double>();
     if (!s.shutter_s || !s.fstop) {
         return refuse("E-CAM-EXPOSURE",
-                      setting(s.shutter_s ? "fstop" : "shutter"),
-                      "an exposure needs " + setting("fstop") + " and " + setting("shutter") +
+                      setting(s.shutter_s ? "fstop" : "exposure-time"),
+                      "an exposure needs " + setting("fstop") + " and " + setting("exposure-time") +
                           " (and " + setting("iso") + ", else 100), or " + setting("ev100"));
     }
     return std::optional<double>(exposure_value(*s.fstop, *s.shutter_s, s.iso.value_or(100)));

@@ -148,8 +148,7 @@ public:
     ListNames(const RenderRequest& request,
               const std::vector<View>& views,
               const std::vector<std::string>& variants)
-        : asset_(request.lists.asset.empty() ? request.scene.stem().string() : request.lists.asset),
-          look_(request.lists.look) {
+        : asset_(asset_name(request)), look_(request.lists.look) {
         for (const View& view : views)
             views_.push_back(name_part(view.name));
         // The steps of a turntable have numbers.
@@ -205,6 +204,11 @@ void group_by_pose(std::vector<ListedImage>& images) {
 }
 
 }  // namespace
+
+std::string asset_name(const RenderRequest& request) {
+    const std::string& name = request.lists.asset;
+    return name.empty() ? request.scene.stem().string() : name;
+}
 
 Result<std::vector<std::string>> listed_variants(const RenderRequest& request,
                                                  const std::vector<std::string>& offered) {

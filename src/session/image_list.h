@@ -94,6 +94,9 @@ Result<std::vector<std::string>> listed_variants(const RenderRequest& request,
 Result<std::vector<std::string>> variants_to_plan(const RenderRequest& request,
                                                   const std::vector<std::string>& offered);
 
+/// What {asset} stands for in the names of files.
+std::string asset_name(const RenderRequest& request);
+
 /// Lists the images of a request.
 ///
 /// In      offer: may be empty unless ListRequest::needs_asset

@@ -4,10 +4,10 @@
 
 #include "session/frames.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <optional>
-#include <set>
 
 namespace obscura {
 
@@ -109,6 +109,48 @@ std::filesystem::path numbered_file(const std::filesystem::path& pattern, int fr
     return name_by_pattern(frame_file(pattern, frame).value_or(pattern), fields);
 }
 
+NameShape::NameShape(const std::filesystem::path& pattern, const NameFields& fields) : parts_(1) {
+    const auto add = [&](std::string_view text) {
+        for (const char c : text) {
+            Part& part = parts_.back();
+            if (c == '/') {
+                parts_.emplace_back();
+            } else if (c == '#') {  // digits of a frame
+                part.is_open = true;
+                part.end.clear();
+            } else {
+                (part.is_open ? part.end : part.begin) += c;
+            }
+        }
+    };
+    each_field(pattern.lexically_normal().string(), add, [&](const Field& field) {
+        const bool is_known = field.name == "asset" || field.name == "look";
+        add(is_known ? value_of(field, fields) : "#");
+    });
+}
+
+bool NameShape::may_equal(const Part& a, const Part& b) {
+    const size_t begin = std::min(a.begin.size(), b.begin.size());
+    const size_t end = std::min(a.end.size(), b.end.size());
+    if (a.is_open && b.is_open) {
+        return a.begin.compare(0, begin, b.begin, 0, begin) == 0 &&
+               a.end.compare(a.end.size() - end, end, b.end, b.end.size() - end, end) == 0;
+    }
+    if (!a.is_open && !b.is_open) return a.begin == b.begin;
+    const Part& open = a.is_open ? a : b;
+    const std::string& whole = a.is_open ? b.begin : a.begin;
+    return whole.size() > open.begin.size() + open.end.size() && whole.starts_with(open.begin) &&
+           whole.ends_with(open.end);
+}
+
+bool NameShape::may_equal(const NameShape& other) const {
+    return std::equal(parts_.begin(),
+                      parts_.end(),
+                      other.parts_.begin(),
+                      other.parts_.end(),
+                      [](const Part& a, const Part& b) { return may_equal(a, b); });
+}
+
 std::string name_part(std::string_view text) {
     constexpr std::string_view refused = "/\\\"*:<>?|{}";
     std::string out(text);
@@ -118,19 +160,6 @@ std::string name_part(std::string_view text) {
     }
     if (!out.empty() && out.front() == '.') out.front() = '_';
     return out.empty() ? "_" : out;
-}
-
-std::vector<std::string> distinct_names(std::vector<std::string> names) {
-    std::set<std::string> taken(names.begin(), names.end());
-    std::set<std::string> used;
-    for (std::string& name : names) {
-        if (used.insert(name).second) continue;
-        const std::string stem = name;
-        for (int number = 2; !taken.insert(name).second; ++number)
-            name = stem + "-" + std::to_string(number);
-        used.insert(name);
-    }
-    return names;
 }
 
 }  // namespace obscura

@@ -30,11 +30,27 @@ std::filesystem::path name_by_pattern(const std::filesystem::path& pattern,
 /// The file of a frame: the number in place of # or {frame}, as by frame_file and name_by_pattern.
 std::filesystem::path numbered_file(const std::filesystem::path& pattern, int frame);
 
+/// What is settled of the names that a pattern gives, while only asset and look are known.
+class NameShape {
+public:
+    /// In      fields: asset and look; the others are not looked at
+    NameShape(const std::filesystem::path& pattern, const NameFields& fields);
+    /// Whether both patterns may give one name. It is true too often rather than too seldom.
+    bool may_equal(const NameShape& other) const;
+
+private:
+    /// One part of a path: what its name begins and ends with; all of it where nothing is open.
+    struct Part {
+        std::string begin, end;
+        bool is_open = false;
+    };
+    static bool may_equal(const Part& a, const Part& b);
+
+    std::vector<Part> parts_;
+};
+
 /// A text as a part of a file's name: what file systems or shells take for something else (slashes,
 /// control characters, " * : < > ? | { }) becomes _, and so does a dot in front.
 std::string name_part(std::string_view text);
-
-/// The texts, made different by -2, -3 and so on behind those that were there before.
-std::vector<std::string> distinct_names(std::vector<std::string> names);
 
 }  // namespace obscura

@@ -20,13 +20,13 @@
 namespace obscura {
 
 v0::Error library_error(const Error& error) {
-    const auto plain = [](const std::string& text) {
-        return spell_settings(text, SettingNames::plain);
+    const auto spelled = [](const std::string& text) {
+        return spell_settings(text, SettingNames::fields);
     };
     v0::Error out;
     out.id = error.id;
-    out.place = plain(error.where);
-    out.text = plain(error.message);
+    out.place = spelled(error.where);
+    out.text = spelled(error.message);
     out.code = static_cast<int>(error.code);
     for (const Error& other : error.also)
         out.also.push_back(library_error(other));
@@ -51,6 +51,9 @@ v0::Result<T> guarded(const Body& body) {
         return library_error({ExitCode::out_of_memory, "E-MEM", "", "out of memory"});
     } catch (const std::exception& error) {
         return library_error({ExitCode::internal, "E-INTERNAL", "", error.what()});
+    } catch (...) {  // of callbacks, which may be of any language
+        return library_error(
+            {ExitCode::internal, "E-INTERNAL", "", "a callback threw what is no std::exception"});
     }
 }
 
@@ -272,7 +275,7 @@ Result<void> Session::write(const Image& image,
                             const std::string& file,
                             const WriteOptions& options) {
     return guarded<void>([&]() -> Result<void> {
-        Log log(Verbosity::normal, library_sink(impl_->sink));
+        Log log(Verbosity::normal, library_sink(impl_->sink), SettingNames::fields);
         const auto written = write_image(image, file, options, log);
         if (!written) return library_error(written.error());
         return {};

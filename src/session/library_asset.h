@@ -21,10 +21,11 @@ namespace obscura::v0 {
 
 struct Asset::Impl {
     Impl(const MessageSink& sink, std::filesystem::path file, gltf::LoadOptions load)
-        : log(Verbosity::normal, library_sink(sink)), asset(std::move(file), std::move(load)) {}
+        : log(Verbosity::normal, library_sink(sink), SettingNames::fields),
+          asset(std::move(file), std::move(load)) {}
 
     Log log;
-    RepeatedLog later{log, SettingNames::plain};
+    RepeatedLog later{log, SettingNames::fields};
     bool has_images = false;  ///< an image was made: all warnings were given
     OpenAsset asset;
     AssetInfo info;

@@ -68,6 +68,16 @@ public:
         refuse(
             "E-USAGE-CHOICE", field, in_quotes(text) + " is no choice; expected one of: " + list);
     }
+    /// An enumeration whose last value is `last`: hosts may cast numbers to it.
+    template <typename E>
+    void choice(const char* field, E value, E last) {
+        const auto number = static_cast<int>(value);
+        if (number >= 0 && number <= static_cast<int>(last)) return;
+        refuse("E-USAGE-CHOICE",
+               field,
+               std::to_string(number) + " is no choice; expected from 0 to " +
+                   std::to_string(static_cast<int>(last)));
+    }
     void conflict(bool condition, const char* field, const std::string& message) {
         if (condition) refuse("E-USAGE-CONFLICT", field, message);
     }
@@ -156,7 +166,9 @@ void read_lens(const v0::View& view, CameraSettings& s, Checks& checks) {
     take<&S::align>(view.align, s, checks);
     take<&S::stereo_m>(view.stereo_m, s, checks);
     take<&S::ev100>(view.ev100, s, checks);
-    take<&S::shutter_s>(view.exposure_s, s, checks);
+    constexpr auto time_range = camera_setting_of<&S::shutter_s>().info.range;
+    checks.real("exposure-time", view.exposure_s, time_range.low, time_range.high);
+    if (view.exposure_s) s.shutter_s = view.exposure_s;
     take<&S::iso>(view.iso, s, checks);
     checks.excludes(view.fstop && view.lens_radius_m, "lens-radius", "fstop");
     checks.excludes(view.focus_on_px && view.focus_distance_m, "focus-on", "focus-distance");
@@ -208,6 +220,8 @@ void read_camera(const v0::View& view, CameraRequest& out, Checks& checks) {
     out.eye_m = point_of(view.eye);
     out.target_m = point_of(view.target);
     out.up = point_of(view.up);
+    if (view.camera_model)
+        checks.choice("camera-model", *view.camera_model, v0::CameraModel::environment);
     if (view.camera_model) out.model = static_cast<CameraModel>(*view.camera_model);
     read_lens(view, out.settings, checks);
     checks.take(check_settings_agree(out.settings));
@@ -227,6 +241,7 @@ void read_look(const v0::Look& look, RenderRequest& out, Checks& checks) {
     checks.real("line-width", look.line_width_px, 0.01, 1000);
     for (const float channel : look.background_color)
         checks.real("background-color", static_cast<double>(channel), 0, 1e9);
+    checks.choice("background", look.background, v0::Background::color);
     if (!look.environment.empty()) out.environment = look.environment;
     out.environment_intensity = look.environment_intensity;
     out.environment_rotation_deg = look.environment_rotation_deg;
@@ -251,6 +266,8 @@ void read_sampling(const v0::Sampling& sampling, RenderOptions& out, Checks& che
     checks.real("clamp-direct", sampling.clamp_direct, 0, 1e12);
     checks.real("clamp-indirect", sampling.clamp_indirect, 0, 1e12);
     checks.real("crypto-levels", sampling.crypto_levels, 1, 64);
+    checks.choice("integrator", sampling.integrator, v0::Integrator::heat);
+    checks.choice("filter", sampling.filter, v0::PixelFilter::blackman_harris);
     out.integrator = static_cast<Integrator>(sampling.integrator);
     out.samples_per_pixel = sampling.samples_per_pixel;
     if (sampling.noise_target) {
@@ -312,6 +329,10 @@ Result<RenderRequest> request_of(const v0::View& view,
     checks.conflict(view.shutter_s && !((*view.shutter_s)[0] < (*view.shutter_s)[1]),
                     "shutter",
                     "it closes before it opens");
+    if (view.shutter_s) {  // for the file's header: poses have it in seconds
+        out.shutter =
+            ShutterFractions{(*view.shutter_s)[0] * out.fps, (*view.shutter_s)[1] * out.fps};
+    }
     out.threads = control.threads;
     out.options.tile_size = control.tile_size;
     if (checks.error()) return fail(*checks.error());
@@ -326,6 +347,7 @@ Result<DisplayEncoding> encoding_of(const v0::WriteOptions& options) {
     DisplayEncoding out;
     Checks checks;
     checks.conflict(options.bits != 8 && options.bits != 16, "bits", "8 and 16 are accepted");
+    checks.choice("exr-layout", options.exr_layout, v0::ExrLayout::separate);
     if (options.quality) checks.real("quality", *options.quality, 1, 100);
     checks.real("exposure", options.exposure_ev, -50, 50);
     for (const float code : options.page.value_or(std::array<float, 3>{}))

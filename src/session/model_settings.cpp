@@ -50,7 +50,7 @@ Result<void> check_settings_agree(const CameraSettings& settings) {
     };
     if (settings.ev100 && settings.shutter_s) {
         return conflict("ev100",
-                        "it cannot go together with " + setting("shutter") + " or " +
+                        "it cannot go together with " + setting("exposure-time") + " or " +
                             setting("iso") + "; give one or the other");
     }
     if (settings.fisheye_k && settings.fisheye.value_or(FisheyeLaw::opencv) != FisheyeLaw::opencv) {

@@ -15,8 +15,8 @@ PoseTimes pose_times(const ImageTime& time) {
     PoseTimes times;
     times.time_s = time.time_s.value_or(0);
     if (time.shutter_s) {
-        times.shutter = gltf::ShutterTimes{times.time_s + (*time.shutter_s)[0],
-                                           times.time_s + (*time.shutter_s)[1]};
+        times.shutter = gltf::ShutterTimes{
+            times.time_s + (*time.shutter_s)[0], times.time_s + (*time.shutter_s)[1], times.time_s};
     }
     return times;
 }

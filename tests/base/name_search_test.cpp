@@ -49,5 +49,11 @@ TEST(NameSearch, NearNamesComeFirstElseAll) {
     EXPECT_NE(text.find("'hhh' and 3 more"), std::string::npos) << text;
 }
 
+TEST(NameSearch, EqualNamesGetNumbers) {
+    using Names = std::vector<std::string>;
+    EXPECT_EQ(distinct_names({"a", "b", "a", "a"}), (Names{"a", "b", "a-2", "a-3"}));
+    EXPECT_EQ(distinct_names({"a", "a-2", "a"}), (Names{"a", "a-2", "a-3"}));
+}
+
 }  // namespace
 }  // namespace obscura

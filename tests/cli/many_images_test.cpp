@@ -421,6 +421,10 @@ TEST_F(ManyImages, SeveralScenesAreThoseOfSingleCommands) {
         const Texts small = {"render", "--size", "24x16", "--spp", "2"};
         return run(joined(joined(small, more), scenes));
     };
+    // A manifest that is shared has its folder made, too.
+    const Texts shared = {"--manifest", "new/m.jsonl", "--skip-existing", "-o", "new/{asset}.exr"};
+    expect_result(render("box.gltf", shared), 0, "OK");
+    EXPECT_EQ(lines("new/m.jsonl").size(), 1U);
     const Texts outputs = {"--manifest", "m.jsonl", "-o", "out/{asset}.exr"};
     const ProgramRun got = render_all({"quad.gltf", "none.gltf", "other/quad.gltf"}, outputs);
     expect_result(got, 66, "E-SCENE-MISSING");

@@ -132,6 +132,9 @@ TEST_F(TwoSquares, AHoldoutHidesAndIsNoObject) {
     const std::vector<ObjectLabel> objects = label_objects(rays, prepared_->scene());
     EXPECT_EQ(objects[0].node, 0);
     EXPECT_NEAR(objects[0].visibility(), 0.5, 0.02);
+    const size_t held_out = 14 * size + 45;
+    EXPECT_EQ(rays.node[held_out], -1);
+    EXPECT_EQ(rays.depth_m[held_out], 0);
 }
 
 TEST_F(TwoSquares, FarFromTheOriginLayersStayApart) {

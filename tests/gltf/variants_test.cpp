@@ -49,6 +49,24 @@ TEST(Variants, GiveEachPrimitiveItsMaterial) {
     EXPECT_EQ(materials_in("night"), (std::vector<std::string>{"Blue", "Grey"}));
 }
 
+TEST(Variants, EqualOnesAndThoseWithoutANameAreToldApart) {
+    json tree = product();
+    json& variants = tree["extensions"]["KHR_materials_variants"]["variants"];
+    variants[0]["name"] = variants[1]["name"] = "night";
+    variants[2]["name"] = "";
+    LoadOptions options;
+    options.variant = "variant";
+    const Loaded loaded = load_tree(tree, options);
+    ASSERT_TRUE(loaded.scene) << loaded.text();
+    EXPECT_EQ(loaded.scene->info.variants,
+              (std::vector<std::string>{"night", "night-2", "variant"}));
+    EXPECT_EQ(
+        loaded.scene->material_names[static_cast<size_t>(loaded.scene->primitives[0].material)],
+        "Blue");
+    EXPECT_NE(loaded.warnings.find("/variants/1"), std::string::npos) << loaded.warnings;
+    EXPECT_NE(loaded.warnings.find("has no name"), std::string::npos) << loaded.warnings;
+}
+
 TEST(Variants, UnknownOnesAreErrorsThatListTheNames) {
     LoadOptions options;
     options.variant = "noon";

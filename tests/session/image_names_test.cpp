@@ -44,10 +44,29 @@ TEST(ImageNames, TextsOfAssetsCannotLeaveTheirFolder) {
     EXPECT_EQ(name_part("Größe {frame}"), "Größe _frame_");
 }
 
-TEST(ImageNames, EqualNamesGetNumbers) {
-    using Names = std::vector<std::string>;
-    EXPECT_EQ(distinct_names({"a", "b", "a", "a"}), (Names{"a", "b", "a-2", "a-3"}));
-    EXPECT_EQ(distinct_names({"a", "a-2", "a"}), (Names{"a", "a-2", "a-3"}));
+/// Renderings of which other parts make some must not have one file.
+TEST(ImageNames, ShapesTellWhichNamesMayBeEqual) {
+    const auto shape = [](const char* pattern, const char* asset) {
+        NameFields fields;
+        fields.asset = asset;
+        return NameShape(pattern, fields);
+    };
+    const auto meet = [&](const char* a, const char* b, const char* pattern) {
+        const bool one = shape(pattern, a).may_equal(shape(pattern, b));
+        EXPECT_EQ(one, shape(pattern, b).may_equal(shape(pattern, a)));
+        return one;
+    };
+    EXPECT_TRUE(meet("shoe", "shoe_kids", "out/{asset}_{variant}.png"));
+    EXPECT_FALSE(meet("shoe", "boot", "out/{asset}_{variant}.png"));
+    EXPECT_FALSE(meet("shoe", "shoe_kids", "out/{asset}/{variant}.png"));
+    EXPECT_FALSE(meet("shoe", "shoe_kids", "{variant}/{asset}/{frame:04}.png"));
+    EXPECT_FALSE(meet("shoe", "kids_shoe", "{asset}.####.png"));
+    EXPECT_TRUE(meet("shoe", "kids_shoe", "{view}_{asset}.png"));
+    EXPECT_FALSE(meet("shoe", "kids_boot", "{view}_{asset}.png"));
+    EXPECT_TRUE(meet("shoe", "shoe.1", "{asset}.####.png"));
+    EXPECT_TRUE(shape("a.1.png", "shoe").may_equal(shape("a.#.png", "boot")));
+    EXPECT_FALSE(shape("a.png", "shoe").may_equal(shape("a.#.png", "boot")));
+    EXPECT_TRUE(shape("./x/../{asset}.png", "shoe").may_equal(shape("shoe.png", "boot")));
 }
 
 }  // namespace

@@ -102,7 +102,7 @@ TEST(Library, ErrorsNameFieldsAndNoOptions) {
     };
     EXPECT_EQ(error_of([](View& v) { v.camera = "none"; }), "camera E-CAM-UNKNOWN");
     EXPECT_EQ(error_of([](View& v) { v.width = 0; }), "width E-USAGE-RANGE");
-    EXPECT_EQ(error_of([](View& v) { v.focal_length_m = 0.05; }), "focal_length E-CAM-LENS");
+    EXPECT_EQ(error_of([](View& v) { v.focal_length_m = 0.05; }), "focal_length_m E-CAM-LENS");
     EXPECT_EQ(error_of([](View& v) { v.camera_model = CameraModel::thin_lens; }),
               "camera_model E-CAM-LENS");
     EXPECT_EQ(error_of([](View& v) { v.eye = v.target = Vector3{1, 1, 1}; }), "eye E-CAM-VIEW");
@@ -129,7 +129,7 @@ TEST(Library, ErrorsNameFieldsAndNoOptions) {
                   v.camera_json = "c.json";
               }),
               "camera_json E-USAGE-CONFLICT");
-    EXPECT_EQ(error_of([](View& v) { v.stereo_m = -1; }), "stereo E-USAGE-RANGE");
+    EXPECT_EQ(error_of([](View& v) { v.stereo_m = -1; }), "stereo_m E-USAGE-RANGE");
     EXPECT_TRUE(session.render(*asset, small_view(), {}, few_samples())) << "it can go on";
 }
 
@@ -332,6 +332,10 @@ TEST(Library, ExceptionsOfCallbacksAreErrorsAndTheAssetGoesOn) {
     ASSERT_FALSE(thrown);
     EXPECT_EQ(thrown.error().id, "E-INTERNAL");
     EXPECT_EQ(thrown.error().text, "the window is gone");
+    control.tile = [](const Tile&) { throw 7; };
+    const Result<Image> foreign = session.render(*asset, small_view(), {}, few_samples(), control);
+    ASSERT_FALSE(foreign);
+    EXPECT_EQ(foreign.error().id, "E-INTERNAL");
     EXPECT_EQ(image_of(session.render(*asset, small_view(), {}, few_samples())).pixels,
               fresh_image(file, small_view()).pixels);
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/parse/variants.h"
 
+#include "base/name_search.h"
 #include "base/setting_names.h"
 
 #include <algorithm>
@@ -52,10 +53,25 @@ void each_primitive(Document& document, const Use& use) {
 void read_variants(DocumentReading& reading) {
     if (!reading.root().has_extension(variants_name)) return;
     const ValueReader object = reading.root().extension(variants_name);
+    std::vector<std::string> given;
     object.each("variants", [&](const ValueReader& variant, size_t) {
         variant.require("name");
-        reading.document.variants.push_back(variant.text("name"));
+        given.push_back(variant.text("name"));
     });
+    std::vector<std::string> names = given;
+    for (std::string& name : names) {
+        if (name.empty()) name = "variant";  // "" stands for the file's own materials
+    }
+    names = distinct_names(std::move(names));
+    for (size_t i = 0; i < names.size(); ++i) {
+        if (names[i] == given[i]) continue;
+        reading.log.warn(reading.document.at("/extensions/" + std::string(variants_name) +
+                                             "/variants/" + std::to_string(i)),
+                         (given[i].empty() ? "the variant has no name"
+                                           : "the variant has the name of another one") +
+                             std::string(": it is called \"") + names[i] + "\"");
+    }
+    reading.document.variants = std::move(names);
 }
 
 void read_variant_materials(const DocumentReading& reading,
