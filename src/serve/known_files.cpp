@@ -84,10 +84,6 @@ bool is_upload(std::string_view name) {
     return name.starts_with(upload_prefix);
 }
 
-std::string name_for_people(const std::string& name) {
-    return is_upload(name) ? fs::path(name).filename().string() : name;
-}
-
 std::optional<FileKind> kind_of(const fs::path& file) {
     const std::string ending = lower_ending(file);
     if (ending == ".glb" || ending == ".gltf") return FileKind::model;

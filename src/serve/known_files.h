@@ -24,9 +24,6 @@ enum class FileKind { model, environment };
 /// Whether a client names a file that was sent: "upload:<sha256>/shoe.glb".
 bool is_upload(std::string_view name);
 
-/// What texts call a file that a client names: an upload without its digest, "shoe.glb".
-std::string name_for_people(const std::string& name);
-
 /// By the ending of its name; nothing: it is neither.
 std::optional<FileKind> kind_of(const std::filesystem::path& file);
 

@@ -96,17 +96,16 @@ Result<Json> Service::open_view(const std::string& file) {
         return fail(ExitCode::usage, "E-SERVE-NAME", file, "expected a .glb or .gltf file");
     Result<RenderRequest> request = options_.options.request(*scene, Options::object());
     if (!request) return fail(request.error());
-    const std::string name = name_for_people(file);
     Open open{
-        file, *scene, {{scene->string(), name}}, std::make_shared<Viewer>(*scene, request->load)};
+        file, *scene, {{scene->string(), file}}, std::make_shared<Viewer>(*scene, request->load)};
     const Result<LookAt> camera = open.viewer->open({0, std::move(*request), ""});
-    if (!camera) return fail(with_name(camera.error(), *scene, name));
+    if (!camera) return fail(with_name(camera.error(), *scene, file));
     Json out;
     std::string id;
     const std::shared_ptr<Viewer> viewer = open.viewer;
     std::vector<std::string> warnings = viewer->warnings();
     for (std::string& warning : warnings)
-        replace_path(warning, *scene, name);
+        replace_path(warning, *scene, file);
     out["asset"] = asset_answer(viewer->scene(), warnings);
     out["camera"] = camera_answer(*camera);
     // What is closed to make room goes when nobody holds the lock.
@@ -154,8 +153,7 @@ Result<Json> Service::wish(const std::string& view, const Options& options) {
         number = ++known->second.wishes;
         const auto env = found->find("env");
         if (env != found->end() && *env != options.at("env"))
-            known->second.names[env->get<std::string>()] =
-                name_for_people(options.at("env").get<std::string>());
+            known->second.names[env->get<std::string>()] = options.at("env").get<std::string>();
     }
     open->viewer->want({number, std::move(*request), rendering_of(*found)});
     return Json{{"wish", number}, {"command", options_.options.command(open->file, options)}};

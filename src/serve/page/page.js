@@ -29,7 +29,8 @@ const problems = new Map();
 
 function problemText({place, message, also = []}) {
   const more = also.map((other) => `\n${other.place ?? ""} ${other.text ?? other}`);
-  return ` ${place ? `${place}: ` : ""}${message}${more.join("")}`;
+  const text = ` ${place ? `${place}: ` : ""}${message}${more.join("")}`;
+  return text.replace(/upload:[0-9a-f]{64}\//g, "");  // people know a sent file by its name
 }
 
 function showProblems() {
