@@ -48,6 +48,16 @@ bool is_of_command(const std::string& name) {
     return std::find(all.begin(), all.end(), name) != all.end();
 }
 
+/// What options of pictures are called in a job.
+std::vector<std::string> keys_of(const std::vector<BoundOption>& table) {
+    std::vector<std::string> out;
+    for (const BoundOption& option : table) {
+        const std::string name = long_name(option.info);
+        if (name.starts_with("--") && !is_of_command(name)) out.push_back(name.substr(2));
+    }
+    return out;
+}
+
 /// The members "options" of one object, over what is set already.
 void read_options(const JsonReader& reader, const json& tree, JobRun& run) {
     const auto options = tree.find("options");
@@ -59,12 +69,10 @@ void read_options(const JsonReader& reader, const json& tree, JobRun& run) {
         const std::string name = "--" + key;
         const BoundOption* const found = find_option(table, name);
         if (found == nullptr || is_of_command(name)) {
-            std::vector<std::string> names;
-            for (const BoundOption& option : table)
-                names.push_back(long_name(option.info));
             inside.fault(key,
                          "E-JOB-KEY",
-                         "there is no such option for a job's pictures" + near_names(name, names) +
+                         "there is no such option for a job's pictures" +
+                             near_names(key, keys_of(table)) +
                              "; `obscura help render` lists them, here without the hyphens");
             return;
         }

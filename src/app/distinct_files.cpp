@@ -77,14 +77,6 @@ std::vector<fs::path> files_read(const RenderRequest& request) {
     return read;
 }
 
-std::vector<fs::path> patterns_of(const RenderRequest& request) {
-    std::vector<fs::path> patterns = request.outputs;
-    if (request.segmentation) patterns.push_back(*request.segmentation);
-    if (request.long_run.has_checkpoint && !request.long_run.checkpoint.empty())
-        patterns.push_back(request.long_run.checkpoint);
-    return patterns;
-}
-
 bool same_file(const fs::path& a, const fs::path& b) {
     KnownFiles known;
     known.add(a);

@@ -12,9 +12,6 @@ bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 /// The files that a rendering reads, beside those that its scene names.
 std::vector<std::filesystem::path> files_read(const RenderRequest& request);
 
-/// Patterns of the names of all files that belong to images.
-std::vector<std::filesystem::path> patterns_of(const RenderRequest& request);
-
 /// Refuses what would replace a file that is read.
 ///
 /// Errors  64 E-USAGE-SAMEFILE

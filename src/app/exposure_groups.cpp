@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/exposure_groups.h"
 
+#include "app/before_its_turn.h"
 #include "app/listed_poses.h"
-#include "app/memory_option.h"
 #include "app/numbers.h"
-#include "base/parallel.h"
 #include "camera/exposure.h"
 #include "session/exposure_meter.h"
 #include "session/preview.h"
@@ -64,44 +63,14 @@ Result<void> meter_images(Job& job, Log& log, std::vector<double>& stops) {
 
 /// What is metered of a run; nothing after an error.
 std::vector<double> meter(const SceneRun& run, KeptForLater& kept) {
-    RenderRequest request = run.request;
-    request.lists.keeps_asset = true;
     std::vector<double> stops;
-    if (needs_preview(request.options.integrator)) return stops;
-    Log unheard;  // the rendering will say the same
-    // Nothing can be lost: signals and the time limit end the program at once.
-    Watch watch(request.scene.string(), unheard, {request.long_run.time_limit_s, {}, {}});
-    const ThreadLimit threads(request.threads);
-    Result<void> done = start_threads_ahead();
-    if (done) done = use_memory_limit(request.max_memory, memory_bound());
-    if (done) done = read_named_files(request, unheard);
-    if (!done) return {};
-    Job job{.log = unheard,
-            .whole = request,
-            .request = request,
-            .options = run.options,
-            .watch = watch,
-            .kept = kept,
-            .hooks = run.hooks};
-    done = meter_images(job, unheard, stops);
-    // The number must not depend on the memory that others left.
-    const bool lacks_memory = !done && done.error().code == ExitCode::out_of_memory;
-    if (lacks_memory && give_back(kept)) {
-        job.renderer.reset();
-        job.asset_notes = {};
+    if (needs_preview(run.request.options.integrator)) return stops;
+    // Also once more: the number must not depend on the memory that others left.
+    const Result<void> done = do_before_its_turn(run, kept, [&](Job& job) {
         stops.clear();
-        done = meter_images(job, unheard, stops);
-    }
-    // Nobody has heard it; the rendering will tell.
-    job.asset_notes.forget_telling();
-    for (auto& [key, environment] : kept.environments)
-        environment.notes.forget_telling();
-    if (done) {
-        leave_asset(job);
-    } else {
-        stops.clear();
-    }
-    watch.end();
+        return meter_images(job, job.log, stops);
+    });
+    if (!done) stops.clear();
     return stops;
 }
 

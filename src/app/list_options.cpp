@@ -3,7 +3,6 @@
 #include "app/list_options.h"
 
 #include "app/command_line.h"
-#include "app/distinct_files.h"
 #include "app/option_readers.h"
 #include "app/render_command.h"
 #include "app/render_options.h"
@@ -57,7 +56,15 @@ constexpr Entry entries[] = {
 // clang-format on
 
 /// The names of all files that each scene writes, as patterns.
-std::string asset_name(const RenderArguments& arguments) {
+std::vector<std::filesystem::path> patterns_of(const RenderRequest& request) {
+    std::vector<std::filesystem::path> patterns = request.outputs;
+    if (request.segmentation) patterns.push_back(*request.segmentation);
+    if (request.long_run.has_checkpoint && !request.long_run.checkpoint.empty())
+        patterns.push_back(request.long_run.checkpoint);
+    return patterns;
+}
+
+std::string scene_name(const RenderArguments& arguments) {
     if (!arguments.asset.empty()) return arguments.asset;
     return std::filesystem::path(arguments.scene_file).stem().string();
 }
@@ -112,17 +119,23 @@ Result<void> check_scene_files(const std::vector<SceneRun>& runs) {
     return {};
 }
 
-/// Why a file of two renderings is refused.
-const char* why_one_file(const RenderRequest& a, const RenderRequest& b) {
-    if (a.lists.asset != b.lists.asset) {
+/// Why a name that a pattern gives two renderings is refused.
+const char* why_one_file(const std::filesystem::path& pattern,
+                         const RenderRequest& a,
+                         const RenderRequest& b) {
+    const bool same_asset = a.lists.asset == b.lists.asset;
+    const bool same_look = a.lists.look == b.lists.look;
+    if (same_asset && same_look)
+        return "two outputs, or looks of one name, have this file; give them different names";
+    if (!same_asset && !has_field(pattern, "asset")) {
         return "a file's name must tell scenes apart; expected {asset} in it, such as "
                "out/{asset}.png";
     }
-    if (a.lists.look != b.lists.look) {
-        return "a file's name must tell looks apart; expected {look} in it, and looks whose names "
-               "differ in more than signs that files' names cannot have";
-    }
-    return "two outputs, or looks of one name, have this file; give them different names";
+    if (!same_look && !has_field(pattern, "look"))
+        return "a file's name must tell looks apart; expected {look} in it";
+    return "it gives two renderings one name; put a / between its fields, and give looks names "
+           "that "
+           "differ in more than signs that files' names cannot have";
 }
 
 }  // namespace
@@ -173,7 +186,8 @@ Result<void> check_scenes(const std::vector<SceneRun>& runs) {
                 seen.try_emplace(name_by_pattern(pattern, fields), &request);
             if (is_new) continue;
             if (auto there = check_scene_files(runs); !there) return there;
-            auto refused = conflict(pattern.string(), why_one_file(*before->second, request));
+            auto refused =
+                conflict(pattern.string(), why_one_file(pattern, *before->second, request));
             return fail(at_its_place(std::move(refused.value()), run.places));
         }
     }
@@ -181,7 +195,7 @@ Result<void> check_scenes(const std::vector<SceneRun>& runs) {
 }
 
 std::string listed_output(const RenderArguments& arguments) {
-    std::string out = asset_name(arguments);
+    std::string out = scene_name(arguments);
     if (arguments.list.variants || arguments.list.views) out += ".{variant}";
     if (arguments.list.cameras || arguments.list.views) out += ".{view}";
     if (arguments.list.turntable || arguments.frames) out += ".{frame:04}";

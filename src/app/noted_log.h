@@ -17,6 +17,7 @@ public:
     /// Says all of it; after the first time, only adds its warnings to those of the log.
     void tell(Log& log);
     void mark_told() { is_told_ = true; }
+    bool is_told() const { return is_told_; }
     /// It was told to nobody who listens.
     void forget_telling() { is_told_ = false; }
 

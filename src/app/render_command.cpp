@@ -259,8 +259,7 @@ class SceneRuns {
 public:
     SceneRuns(std::vector<SceneRun>& runs, Log& log) : runs_(runs), log_(log) {
         meter_exposures(runs_, kept_, log_);
-        note_files_of_other_parts(runs_, kept_);
-        std::erase_if(runs_, [](const SceneRun& run) { return run.is_of_another_part; });
+        others_.emplace(runs_);
         drop_unneeded(kept_, runs_);
         for (const SceneRun& run : runs)
             time_limits_s_.push_back(run.request.long_run.time_limit_s);
@@ -294,8 +293,10 @@ public:
 
 private:
     void render_all_scenes() {
-        for (size_t i = 0; i < runs_.size() && !is_stopped(); ++i)
+        for (size_t i = 0; i < runs_.size() && !is_stopped(); ++i) {
+            others_->note_files_before(i, kept_);
             render_one(i, runs_.size() > 1);
+        }
         const std::vector<size_t> locked = std::move(locked_);
         for (size_t i = 0; i < locked.size() && !is_stopped(); ++i)
             render_one(locked[i], false);
@@ -364,6 +365,7 @@ private:
     }
 
     std::vector<SceneRun>& runs_;
+    std::optional<OtherParts> others_;
     Log& log_;
     std::vector<std::optional<double>> time_limits_s_;  ///< of the whole command
     const Stopwatch total_;

@@ -14,10 +14,11 @@ namespace {
 constexpr char mark = '\x1f';
 
 /// Settings whose fields in the library have other names than options.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 26> other_fields = {
+constexpr std::array<std::pair<std::string_view, std::string_view>, 27> other_fields = {
     {{"ao-distance", "ao_distance_m"},
      {"blade-rotation", "blade_rotation_deg"},
      {"env", "environment"},
+     {"environment", "projection"},
      {"environment-rotation", "environment_rotation_deg"},
      {"exposure", "exposure_ev"},
      {"exposure-time", "exposure_s"},
@@ -42,13 +43,17 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 26> other_fi
      {"time", "time_s"},
      {"wire-width", "wire_width_px"}}};
 
-std::string field_name(const std::string& name) {
-    for (const auto& [setting, field] : other_fields) {
-        if (setting == name) return std::string(field);
+std::string spelled(std::string name, SettingNames names) {
+    if (names == SettingNames::fields) {
+        for (const auto& [setting, field] : other_fields) {
+            if (setting == name) return std::string(field);
+        }
+    } else if (name == "exposure-time") {  // a field of its own in the library alone
+        name = "shutter";
     }
-    std::string out = name;
-    std::replace(out.begin(), out.end(), '-', '_');
-    return out;
+    if (names == SettingNames::options) return "--" + name;
+    std::replace(name.begin(), name.end(), '-', '_');
+    return name;
 }
 
 bool is_of_name(char c) {
@@ -71,16 +76,7 @@ std::string spell_settings(std::string_view text, SettingNames names) {
         const size_t begin = ++i;
         while (i < text.size() && is_of_name(text[i]))
             ++i;
-        std::string name(text.substr(begin, i - begin));
-        if (names == SettingNames::options) {
-            // One option has both, by what it is given.
-            out += "--" + (name == "exposure-time" ? "shutter" : name);
-        } else if (names == SettingNames::fields) {
-            out += field_name(name);
-        } else {
-            std::replace(name.begin(), name.end(), '-', '_');
-            out += name;
-        }
+        out += spelled(std::string(text.substr(begin, i - begin)), names);
     }
     return out;
 }

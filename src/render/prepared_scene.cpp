@@ -114,6 +114,7 @@ Result<void> prepare(PreparedScene::Impl& impl,
     mark_alike_textures(impl.scene);
     split_long_curves(impl.scene);
     impl.edge_scale = edge_scale(impl.scene);
+    impl.stretches = has_stretched_instances(impl.scene);
     impl.touching_media = find_touching_media(impl.scene);
     auto lit = make_lighting(impl, lighting, log);
     if (!lit) return lit;
@@ -140,7 +141,7 @@ SceneView PreparedScene::Impl::view() const {
     out.attributes = scene.attributes.data();
     out.primitives = scene.primitives.data();
     out.instances = scene.instances.data();
-    out.stretches = has_stretched_instances(scene);
+    out.stretches = stretches;
     if (!scene.shapes.empty() || !scene.spheres.empty() || !scene.curve_points.empty()) {
         // Lanes that hit shapes also read the mesh tables, at index 0, and ignore the values.
         static constexpr float zeros[16] = {};

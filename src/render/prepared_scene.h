@@ -21,6 +21,7 @@ struct PreparedScene::Impl {
     std::optional<Accel> accel;
     const StageTable* stages = nullptr;
     float edge_scale = 1;                 ///< see scene/edge_scale.h
+    bool stretches = false;               ///< see scene/stretch.h
     std::vector<int32_t> touching_media;  ///< see scene/touching_media.h
     std::string embree_isa;               ///< as Accel::build takes it
     BuildSeconds build_seconds;

@@ -3,6 +3,8 @@
 #include "scene/stretch.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 
 namespace obscura {
 namespace {

@@ -110,10 +110,10 @@ OBSCURA_INLINE void interpolate_normal(const SceneView& scene,
             select(smooth, smooth_surface_shift(g, p, n, g.position), splat3(Lanes(0.0f)));
     }
     if (scene.stretches) {
-        const CornerVectors equal =
-            equal_in_world(scene, hit.instance, hit.time, {{n[0], n[1], n[2]}});
+        const CornerVectors scaled =
+            keep_lengths_in_world(scene, hit.instance, hit.time, {{n[0], n[1], n[2]}});
         for (int k = 0; k < 3; ++k)
-            n[k] = equal.at[k];
+            n[k] = scaled.at[k];
     }
     g.normal = select(smooth, normalize(weighted(g, n)), g.ng);
 }

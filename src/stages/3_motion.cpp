@@ -53,17 +53,18 @@ CornerVectors moved_corners(const SceneView& scene,
     return out;
 }
 
-CornerVectors equal_in_world(const SceneView& scene,
-                             LanesI instance,
-                             Lanes time,
-                             const CornerVectors& normals) {
+CornerVectors keep_lengths_in_world(const SceneView& scene,
+                                    LanesI instance,
+                                    Lanes time,
+                                    const CornerVectors& normals) {
     const Mask instanced = instance >= LanesI(0);
     if (none(instanced)) return normals;
     const Affine<Lanes> object = instance_maps(scene, instance, time).object_from_world;
     CornerVectors out;
     for (int k = 0; k < 3; ++k) {
-        const Lanes size = max(length(transform_normal(object, normals.at[k])), Lanes(1e-30f));
-        out.at[k] = select(instanced, normals.at[k] * (Lanes(1.0f) / size), normals.at[k]);
+        const Vec3<Lanes>& normal = normals.at[k];
+        const Lanes in_world = max(length(transform_normal(object, normal)), Lanes(1e-30f));
+        out.at[k] = select(instanced, normal * (length(normal) / in_world), normal);
     }
     return out;
 }

@@ -36,12 +36,12 @@ CornerVectors moved_corners(const SceneView& scene,
                             const HitCorners& corners,
                             const CornerVectors& still);
 
-/// Normals at the corners, divided by the lengths that they have in world space, so that they
-/// weigh the same there as in a mesh without an instance. Not inlined: few scenes stretch.
-CornerVectors equal_in_world(const SceneView& scene,
-                             LanesI instance,
-                             Lanes time,
-                             const CornerVectors& normals);
+/// Normals at the corners, scaled so that in world space they have the lengths that they have
+/// here: they weigh there as in a mesh without an instance. Not inlined: few scenes stretch.
+CornerVectors keep_lengths_in_world(const SceneView& scene,
+                                    LanesI instance,
+                                    Lanes time,
+                                    const CornerVectors& normals);
 
 /// In  instance: records; lanes in world space may have any
 OBSCURA_INLINE InstanceMaps instance_maps(const SceneView& scene, LanesI instance, Lanes time) {

@@ -34,10 +34,13 @@ OBSCURA_INLINE TangentLanes read_tangents(const SceneView& scene,
     if (any(instanced)) {
         const TableRecord<Lanes, Instance> instance = instance_record(scene, hit);
         const InstanceMaps maps = instance_maps(scene, hit.instance, hit.time);
-        Vec3<Lanes> moved[3];
-        for (int k = 0; k < 3; ++k)
-            moved[k] = normalize(transform_vector(maps.world_from_object, corners[k]));
-        t = select(instanced, weighted(g, moved), t);
+        Vec3<Lanes> moved = transform_vector(maps.world_from_object, t);
+        if (scene.stretches) {  // as those of a mesh without an instance
+            for (Vec3<Lanes>& corner : corners)
+                corner = normalize(transform_vector(maps.world_from_object, corner));
+            moved = weighted(g, corners);
+        }
+        t = select(instanced, moved, t);
         const Mask mirrored = instanced & (instance.integer<&Instance::mirrored>() != LanesI(0));
         handedness = select(mirrored, -handedness, handedness);
     }

@@ -40,6 +40,11 @@ TEST(SettingNames, AreSpelledForWhoReadsThem) {
     const std::string text = "give " + setting("focus-distance") + ", or " + setting("fstop") + ".";
     EXPECT_EQ(spell_settings(text, SettingNames::plain), "give focus_distance, or fstop.");
     EXPECT_EQ(spell_settings(text, SettingNames::options), "give --focus-distance, or --fstop.");
+    EXPECT_EQ(spell_settings(text, SettingNames::fields), "give focus_distance_m, or fstop.");
+    const std::string time = setting("exposure-time");
+    EXPECT_EQ(spell_settings(time, SettingNames::options), "--shutter");
+    EXPECT_EQ(spell_settings(time, SettingNames::plain), "shutter");
+    EXPECT_EQ(spell_settings(time, SettingNames::fields), "exposure_s");
     EXPECT_EQ(spell_settings("a-b --c", SettingNames::plain), "a-b --c");
     Log log(Verbosity::quiet, {}, SettingNames::options);
     log.warn(setting("env"), "x");

@@ -406,34 +406,21 @@ TEST_F(Batch, MistakesHaveTheirPlace) {
     expect_result(run({"batch", "none.json"}), 67, "E-JOB-MISSING");
 }
 
+TEST_F(Batch, UnknownOptionsAreAnsweredWithThoseNearToThem) {
+    json job = small_job();
+    job["options"]["varients"] = "all";
+    EXPECT_THAT(batch(job).err, HasSubstr("(did you mean 'variants'"));
+    job["options"].erase("varients");
+    job["options"]["skip-existing"] = true;
+    EXPECT_THAT(batch(job).err, Not(HasSubstr("did you mean")));
+}
+
 TEST_F(Batch, ADryRunTellsOfFilesThatTwoRenderingsHave) {
     json job = small_job();
     job["outputs"][1]["file"] = "out/./{asset}/{look}.png";
     const ProgramRun got = batch(job, {"--dry-run"});
     expect_result(got, 64, "E-USAGE-SAMEFILE");
     EXPECT_THAT(got.err, HasSubstr("another image of this command has this file"));
-}
-
-TEST_F(Batch, PartsKnowTheFilesOfOtherParts) {
-    folder_.write("views.json", R"({"views": [{"name": "a_b"}, {"name": "b"}]})");
-    fs::copy_file(folder_ / "in/box.gltf", folder_ / "in/x.gltf");
-    fs::copy_file(folder_ / "in/quad.gltf", folder_ / "in/x_a.gltf");
-    json job = small_job();
-    job["assets"] = {"in/x.gltf", "in/x_a.gltf"};
-    job["options"]["views"] = "views.json";
-    job["looks"] = {"a"};
-    job["outputs"] = {"{asset}_{view}.png"};
-    EXPECT_EQ(files_of(job, {"--part", "1/2"}).size(), 2U);
-    expect_result(batch(job, {"--part", "1/2"}), 0, "OK");
-    for (const Texts& more : {Texts{"--part", "2/2"}, Texts{"--part", "2/2", "--dry-run"}}) {
-        const ProgramRun got = batch(job, more);
-        expect_result(got, 64, "E-USAGE-SAMEFILE");
-        EXPECT_THAT(got.err, HasSubstr("x_a_b.png"));
-    }
-    EXPECT_FALSE(fs::exists(folder_ / "x_a_a_b.png"));
-    job["outputs"] = {"{asset}/{view}.png"};
-    for (const char* part : {"1/2", "2/2"})
-        expect_result(batch(job, {"--part", part}), 0, "OK");
 }
 
 /// Also what only the asset tells, or a file that is read in its turn.

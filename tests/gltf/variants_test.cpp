@@ -65,6 +65,16 @@ TEST(Variants, EqualOnesAndThoseWithoutANameAreToldApart) {
         "Blue");
     EXPECT_NE(loaded.warnings.find("/variants/1"), std::string::npos) << loaded.warnings;
     EXPECT_NE(loaded.warnings.find("has no name"), std::string::npos) << loaded.warnings;
+    variants[0]["name"] = "";
+    variants[1]["name"] = "variant";
+    variants[2]["name"] = "";
+    options.variant.clear();
+    EXPECT_EQ(load_tree(tree, options).scene->info.variants,
+              (std::vector<std::string>{"variant-2", "variant", "variant-3"}));
+    variants[0].erase("name");
+    const Loaded nameless = load_tree(tree, options);
+    EXPECT_EQ(nameless.id(), "E-DOC-MISSING");
+    EXPECT_EQ(nameless.warnings, "");
 }
 
 TEST(Variants, UnknownOnesAreErrorsThatListTheNames) {

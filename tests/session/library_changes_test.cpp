@@ -223,6 +223,7 @@ TEST_F(Changes, MistakesAreNamed) {
     EXPECT_EQ(id("/nodes/1/weights", {1}), "E-SET-VALUE");
     EXPECT_EQ(id("/nodes/1/translation", {1, 2, std::nan("")}), "E-SET-VALUE");
     EXPECT_EQ(id("/nodes/1/rotation", {0, 0, 0, 0}), "E-SET-VALUE");
+    EXPECT_EQ(id("/nodes/1/extensions/KHR_node_visibility/visible", {0.3}), "E-SET-VALUE");
     const Result<void> variant = asset.set_variant("red");
     ASSERT_FALSE(variant);
     EXPECT_EQ(variant.error().id, "E-VARIANT-UNKNOWN");

@@ -1,5 +1,7 @@
 // tests/session/library_settings_test.cpp - what views, looks and sampling of the library ask for.
 // SPDX-License-Identifier: Apache-2.0
+#include "base/setting_names.h"
+
 #include <OpenEXR/ImfFloatAttribute.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputFile.h>
@@ -8,7 +10,10 @@
 #include "support/temp_folder.h"
 #include <array>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <obscura/obscura.h>
+#include <regex>
 #include <string>
 
 namespace obscura {
@@ -88,6 +93,82 @@ TEST(LibrarySettings, EnumerationsAreCheckedToo) {
     view.camera_model.reset();
     view.fov_deg = 400;
     EXPECT_EQ(refused(view, {}, {}), "E-USAGE-RANGE fov_deg");
+    WriteOptions layout;
+    layout.exr_layout = static_cast<ExrLayout>(9);
+    const Image image = value_of(session.render(*asset, small_view(), {}, {}));
+    const TempFolder folder;
+    const Result<void> written = session.write(image, folder / "a.exr", layout);
+    ASSERT_FALSE(written);
+    EXPECT_EQ(written.error().place, "exr_layout");
+}
+
+/// Settings that the library has.
+constexpr const char* settings[] = {"animation",
+                                    "ao-distance",
+                                    "aov",
+                                    "bits",
+                                    "blade-rotation",
+                                    "camera",
+                                    "camera-model",
+                                    "clamp-direct",
+                                    "crop",
+                                    "display",
+                                    "env",
+                                    "environment",
+                                    "ev100",
+                                    "exposure",
+                                    "exposure-time",
+                                    "exr-layout",
+                                    "eye",
+                                    "far",
+                                    "fisheye",
+                                    "fisheye-coefficients",
+                                    "float",
+                                    "focal-length",
+                                    "focus-distance",
+                                    "focus-on",
+                                    "fov",
+                                    "fps",
+                                    "fstop",
+                                    "integrator",
+                                    "isa",
+                                    "iso",
+                                    "lenient",
+                                    "lens-radius",
+                                    "line-width",
+                                    "mag",
+                                    "near",
+                                    "noise-target",
+                                    "occlusion",
+                                    "ocio",
+                                    "page",
+                                    "point-size",
+                                    "scene",
+                                    "sensor",
+                                    "shift",
+                                    "shutter",
+                                    "size",
+                                    "spp",
+                                    "spp-min",
+                                    "stereo",
+                                    "target",
+                                    "time",
+                                    "up",
+                                    "variant",
+                                    "view",
+                                    "wire-width"};
+
+/// What errors call a field is what it is called.
+TEST(LibrarySettings, FieldsOfErrorsAreInTheHeaders) {
+    std::string headers;
+    for (const char* name : {"asset.h", "control.h", "image.h", "view.h"}) {
+        std::ifstream file(std::string(OBSCURA_SOURCE_DIR "/include/obscura/") + name);
+        headers.append(std::istreambuf_iterator<char>(file), {});
+    }
+    for (const char* one : settings) {
+        const std::string field = spell_settings(setting(one), SettingNames::fields);
+        EXPECT_TRUE(std::regex_search(headers, std::regex("\\b" + field + "\\b"))) << field;
+    }
 }
 
 }  // namespace

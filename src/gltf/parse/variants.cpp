@@ -6,6 +6,7 @@
 #include "base/setting_names.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace obscura::gltf {
 
@@ -48,6 +49,23 @@ void each_primitive(Document& document, const Use& use) {
     }
 }
 
+/// The names, made different; "" stands for the file's own materials, and gets another one.
+std::vector<std::string> names_to_choose_by(const std::vector<std::string>& given) {
+    constexpr const char* nameless = "variant";
+    std::vector<std::string> names;
+    std::copy_if(given.begin(), given.end(), std::back_inserter(names), [](const auto& name) {
+        return !name.empty();
+    });
+    names.resize(given.size(), nameless);  // behind the others, which keep theirs
+    names = distinct_names(std::move(names));
+    std::vector<std::string> out;
+    size_t named = 0;
+    size_t unnamed = given.size() - static_cast<size_t>(std::count(given.begin(), given.end(), ""));
+    for (const std::string& name : given)
+        out.push_back(names[name.empty() ? unnamed++ : named++]);
+    return out;
+}
+
 }  // namespace
 
 void read_variants(DocumentReading& reading) {
@@ -58,11 +76,8 @@ void read_variants(DocumentReading& reading) {
         variant.require("name");
         given.push_back(variant.text("name"));
     });
-    std::vector<std::string> names = given;
-    for (std::string& name : names) {
-        if (name.empty()) name = "variant";  // "" stands for the file's own materials
-    }
-    names = distinct_names(std::move(names));
+    if (reading.failed()) return;
+    const std::vector<std::string> names = names_to_choose_by(given);
     for (size_t i = 0; i < names.size(); ++i) {
         if (names[i] == given[i]) continue;
         reading.log.warn(reading.document.at("/extensions/" + std::string(variants_name) +
@@ -71,7 +86,7 @@ void read_variants(DocumentReading& reading) {
                                            : "the variant has the name of another one") +
                              std::string(": it is called \"") + names[i] + "\"");
     }
-    reading.document.variants = std::move(names);
+    reading.document.variants = names;
 }
 
 void read_variant_materials(const DocumentReading& reading,
