@@ -1,4 +1,4 @@
-// tests/cli/batch_parts_test.cpp - parts of a job know the files of each other's pictures.
+// tests/cli/batch_parts_test.cpp - parts of a job know the files of each other's images.
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/cli.h"
 #include <nlohmann/json.hpp>
@@ -34,7 +34,7 @@ protected:
     }
 };
 
-TEST_F(BatchParts, NoPictureTakesTheFileOfAnotherPart) {
+TEST_F(BatchParts, NoImageTakesTheFileOfAnotherPart) {
     json job = job_of({"x", "x_a"}, "{asset}_{view}.png");
     expect_result(batch(job, {"--part", "1/2"}), 0, "OK");
     expect_refused(batch(job, {"--part", "2/2"}), "x_a_b.png");
