@@ -242,8 +242,9 @@ private:
         Log& log = index == 0 ? job_.log : later_.begin();
         job_.unwritten.reset();
         job_.leaves_files = may_write_beside(index);
-        const Result<void> done =
+        Result<void> done =
             with_memory(log, [&](Log& own) { return render_one(index, own, made); });
+        if (!done) done = fail(at_its_view(std::move(done.error()), made.outcome.view));
         if (has_ended_) return done;  // by the image before: of this one there is nothing
         made.outcome.seconds = making.seconds();
         made.outcome.warnings = log.warnings();

@@ -205,6 +205,13 @@ void group_by_pose(std::vector<ListedImage>& images) {
 
 }  // namespace
 
+Error at_its_view(Error error, const View& view) {
+    const std::string name = spell_settings(error.where, SettingNames::plain);
+    const bool is_there = std::find(view.keys.begin(), view.keys.end(), name) != view.keys.end();
+    if (is_there) error.where = view.place + "/" + name;
+    return error;
+}
+
 std::string asset_name(const RenderRequest& request) {
     const std::string& name = request.lists.asset;
     return name.empty() ? request.scene.stem().string() : name;

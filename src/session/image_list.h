@@ -27,8 +27,13 @@ struct View {
     std::optional<std::string> variant = {};
     std::optional<double> time_s = {};
     std::optional<double> environment_rotation_deg = {}, environment_intensity = {};
-    std::string text = {};  ///< says all of the above, for fingerprints; "": the options do
+    std::string text = {};   ///< says all of the above, for fingerprints; "": the options do
+    std::string place = {};  ///< of --views: "views.json#/views/3"
+    std::vector<std::string> keys = {};  ///< that it has there
 };
+
+/// An error with the place in the file of --views, where the view says what is wrong.
+Error at_its_view(Error error, const View& view);
 
 /// What is asked for in place of one image.
 struct ListRequest {

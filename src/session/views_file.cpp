@@ -166,6 +166,8 @@ View read_view(const JsonReader& reader,
     json text = tree;
     text.erase("name");
     view.text = text.dump();
+    view.place = whole.lists.views_file->string() + "#" + reader.pointer();
+    reader.each_key([&](const std::string& key) { view.keys.push_back(key); });
     return view;
 }
 

@@ -200,6 +200,8 @@ TEST_F(ManyImages, OneFailureDoesNotEndTheRest) {
     const std::vector<json> told = lines("m.jsonl");
     ASSERT_EQ(told.size(), 4U);
     EXPECT_EQ(told[1].at("id"), "E-CAM-VIEW");
+    EXPECT_THAT(told[1].at("message"), HasSubstr("views.json#/views/1/eye: "));
+    EXPECT_THAT(told[2].at("message"), HasSubstr("views.json#/views/2/camera: "));
     EXPECT_EQ(told[1].at("exit_code"), 64);
     EXPECT_TRUE(told[1].at("files").empty());
     EXPECT_EQ(told[3].at("id"), "OK");
@@ -345,7 +347,8 @@ TEST_F(ManyImages, ViewsMayHaveVariantsOfTheirOwn) {
     EXPECT_EQ(text("m.jsonl").find('\x1f'), std::string::npos);
     for (const json& line : lines("m.jsonl")) {
         if (line.at("view") != "no") continue;
-        EXPECT_THAT(line.at("message").get<std::string>(), HasSubstr("--variant: "));
+        EXPECT_THAT(line.at("message").get<std::string>(),
+                    HasSubstr("views.json#/views/0/variant: "));
     }
     const Texts both = {"--variants", "Red,Blue*", "-o", "{view}.{variant}.exr"};
     expect_result(render("quad.gltf", joined(views, both)), 64, "E-VARIANT-UNKNOWN");
