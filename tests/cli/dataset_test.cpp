@@ -390,6 +390,16 @@ TEST_F(DatasetCommand, ASceneThatFailsLeavesNoFolder) {
     }
 }
 
+/// Other parts may be about to write there.
+TEST_F(DatasetCommand, APartWithoutImagesLeavesFoldersAlone) {
+    for (const Texts& shared :
+         {Texts{"--part", "9/9"}, Texts{"--part", "9/9", "--skip-existing"}}) {
+        fs::create_directories(folder_ / "d/pair/rgb");
+        expect_result(dataset(joined({"-o", "d"}, shared)), 0, "OK");
+        EXPECT_TRUE(fs::exists(folder_ / "d/pair/rgb"));
+    }
+}
+
 TEST_F(DatasetCommand, DamagedLabelsAreNamed) {
     expect_result(dataset({"-o", "d", "--write", "coco"}), 0, "OK");
     folder_.write("d/pair/labels/000001.json", R"({"image": "rgb/000001.png", "objects": []})");

@@ -125,6 +125,7 @@ protected:
         EXPECT_THAT(got->get_header_value("Content-Type"), HasSubstr("text/plain"));
         EXPECT_THAT(got->body, HasSubstr(text));
         EXPECT_THAT(got->body, Not(HasSubstr("{")));
+        EXPECT_THAT(got->body, Not(HasSubstr("scene.gltf"))) << "the server's own copy";
     }
 
     std::unique_ptr<Server> server_;
