@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include "support/library_view.h"
 #include "support/temp_folder.h"
 #include <cmath>
 #include <obscura/obscura.h>
@@ -10,13 +11,6 @@ namespace obscura {
 namespace {
 
 const std::string assets = OBSCURA_SOURCE_DIR "/assets/";
-
-View small_view() {
-    View view;
-    view.width = 40;
-    view.height = 24;
-    return view;
-}
 
 std::vector<float> pixels_of(const std::string& file, const View& view) {
     Session session;

@@ -7,6 +7,7 @@
 #include <OpenEXR/ImfInputFile.h>
 #include <gtest/gtest.h>
 
+#include "support/library_view.h"
 #include "support/temp_folder.h"
 #include <array>
 #include <cmath>
@@ -20,13 +21,6 @@ namespace obscura {
 namespace {
 
 const std::string assets = OBSCURA_SOURCE_DIR "/assets/";
-
-View small_view() {
-    View view;
-    view.width = 40;
-    view.height = 24;
-    return view;
-}
 
 /// The image, or a failed test.
 Image value_of(const Result<Image>& result) {

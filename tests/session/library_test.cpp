@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include "support/library_view.h"
 #include "support/small_scenes.h"
 #include "support/temp_folder.h"
 #include <algorithm>
@@ -30,13 +31,6 @@ using testing::Not;
 using testing::Pair;
 
 const std::string assets = OBSCURA_SOURCE_DIR "/assets/";
-
-View small_view() {
-    View view;
-    view.width = 40;
-    view.height = 24;
-    return view;
-}
 
 Sampling few_samples() {
     Sampling sampling;
