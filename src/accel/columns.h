@@ -38,6 +38,12 @@ struct Crossing {
     bool enters = false;  ///< the ray comes from the front
 };
 
+/// A surface that a ray meets.
+struct MetSurface {
+    int index = 0;  ///< of the ray
+    SceneRecords surface;
+};
+
 /// The back face of a single-sided surface that a camera ray passed.
 struct PassedBack {
     int index = 0;  ///< of the ray

@@ -99,6 +99,21 @@ void list_infinite_crossings(const Accel::Impl& impl,
     }
 }
 
+void list_infinite_surfaces(const Accel::Impl& impl,
+                            const QueryContext& context,
+                            const RayColumns& rays,
+                            int index,
+                            std::vector<MetSurface>& out) {
+    for (const InfinitePlane& plane : impl.infinite_planes) {
+        const auto hit = intersect_infinite_plane(at_ray(impl, plane, rays, index),
+                                                  context,
+                                                  shape_ray(rays, index),
+                                                  static_cast<unsigned>(index),
+                                                  longest(rays, index));
+        if (hit.found) out.push_back({index, {plane.instance, plane.primitive}});
+    }
+}
+
 bool infinite_plane_occludes(const Accel::Impl& impl,
                              const QueryContext& context,
                              const RayColumns& rays,

@@ -20,6 +20,13 @@ void list_infinite_crossings(const Accel::Impl& impl,
                              int index,
                              std::vector<Crossing>& out);
 
+/// Appends the infinite planes in (0, tfar) of a ray.
+void list_infinite_surfaces(const Accel::Impl& impl,
+                            const QueryContext& context,
+                            const RayColumns& rays,
+                            int index,
+                            std::vector<MetSurface>& out);
+
 /// True when an infinite plane lies in (0, tfar) of a ray.
 bool infinite_plane_occludes(const Accel::Impl& impl,
                              const QueryContext& context,

@@ -87,6 +87,61 @@ void store_packet(const Accel::Impl& impl,
     }
 }
 
+/// Context of a query that records all surfaces along its rays. `common` must come first.
+struct ListingContext {
+    QueryContext common;
+    const Accel::Impl& impl;
+    const RayColumns& rays;
+    std::vector<MetSurface>& out;
+    ValidMask valid = {};  ///< Embree may trace idle lanes, too
+    int first = 0;         ///< of the packet's rays
+};
+
+/// Passes what rays meet of analytic shapes on to the query's context.
+struct ShapeList {
+    CrossingNotes notes;  ///< must come first
+    const ListingContext& context;
+};
+
+void list_surface(const ListingContext& context, unsigned ray, const SceneRecords& surface) {
+    const auto index = static_cast<int>(ray);
+    if (context.valid.lane[index - context.first] != 0) context.out.push_back({index, surface});
+}
+
+void list_shape(CrossingNotes& notes, const ShapeCrossing& met) {
+    const ListingContext& context = reinterpret_cast<ShapeList&>(notes).context;
+    list_surface(context, met.ray, scene_records(context.impl, met.geometry, met.instance));
+}
+
+/// Embree filter function: records every face and rejects the hit.
+void list_faces(const RTCFilterFunctionNArguments* args) {
+    const auto& context = *reinterpret_cast<const ListingContext*>(args->context);
+    const unsigned n = args->N;
+    for (unsigned i = 0; i < n; ++i) {
+        if (args->valid[i] == 0) continue;
+        args->valid[i] = 0;
+        const unsigned ray = RTCRayN_id(args->ray, n, i);
+        const SceneRecords surface = scene_records(
+            context.impl, RTCHitN_geomID(args->hit, n, i), RTCHitN_instID(args->hit, n, i, 0));
+        const Vec3f ng{RTCHitN_Ng_x(args->hit, n, i),
+                       RTCHitN_Ng_y(args->hit, n, i),
+                       RTCHitN_Ng_z(args->hit, n, i)};
+        const TimedDirection direction = direction_of(context.rays, static_cast<int>(ray));
+        const bool passes =
+            context.common.culls_back_faces && is_hidden_back(context.impl, surface, ng, direction);
+        if (!passes) list_surface(context, ray, surface);
+    }
+}
+
+/// What all queries for hits ask of rays.
+void set_see_through(QueryContext& context, const RayColumns& rays, const SeeThrough& asked) {
+    context.keys = rays.key;
+    context.fixed_threshold = asked.fixed_alpha || rays.key == nullptr;
+    context.segment = asked.segment;
+    context.culls_back_faces = asked.culls_back_faces;
+    context.passes = asked.passes;
+}
+
 /// 0 where the scene has no end.
 float largest_coordinate(const Bounds& bounds) {
     float largest = 0;
@@ -111,11 +166,7 @@ int Accel::intersect(const RayColumns& rays,
     const float scene_size = largest_coordinate(impl_->scene->bounds);
     context.nearest = &nearest;
     query.set_filter(impl_->functions.nearest->keep_nearest);
-    context.keys = rays.key;
-    context.fixed_threshold = see_through.fixed_alpha || rays.key == nullptr;
-    context.segment = see_through.segment;
-    context.culls_back_faces = see_through.culls_back_faces;
-    context.passes = see_through.passes;
+    set_see_through(context, rays, see_through);
     context.passed_backs = see_through.passed_backs;
     context.cutaway = see_through.cutaway;
     int refused = 0;
@@ -157,6 +208,33 @@ int Accel::intersect(const RayColumns& rays,
         forget_unseen_backs(hits, *see_through.passed_backs);
     }
     return refused;
+}
+
+void Accel::list_surfaces(const RayColumns& rays,
+                          Coherence coherence,
+                          const SeeThrough& see_through,
+                          std::vector<MetSurface>& out) const {
+    ListingContext context{{}, *impl_, rays, out};
+    ShapeList shapes{{list_shape}, context};
+    Query query(context.common, asks_coherent(*impl_, coherence));
+    query.set_filter(list_faces);
+    set_see_through(context.common, rays, see_through);
+    context.common.crossings = &shapes.notes;
+    RTCRayHit16 block;
+    begin_packets(block.ray);
+    for (int first = 0; first < rays.count; first += packet) {
+        if (!load_packet(*impl_, rays, first, context.valid, block.ray).any) continue;
+        context.first = first;
+        std::fill_n(block.hit.geomID, packet, RTC_INVALID_GEOMETRY_ID);
+        std::fill_n(block.hit.instID[0], packet, RTC_INVALID_GEOMETRY_ID);
+        std::iota(block.ray.id, block.ray.id + packet, static_cast<unsigned>(first));
+        query.intersect16(context.valid.lane, impl_->top, &block);
+        if (impl_->infinite_planes.empty()) continue;
+        for (int i = 0; i < packet; ++i) {
+            if (context.valid.lane[i] == 0) continue;
+            list_infinite_surfaces(*impl_, context.common, rays, first + i, out);
+        }
+    }
 }
 
 int Accel::occluded(const RayColumns& rays,

@@ -219,7 +219,8 @@ void note_roots(const Call& call,
 /// Records all intersections of one ray with a shape, or with the spheres of a cluster.
 void note_crossings(const Call& call, int i, unsigned geometry) {
     const ShapeRay<float> ray = call.rays.ray(i);
-    ShapeCrossing crossing{0.0f, geometry, call.context.embree.instID[0], 0, false};
+    ShapeCrossing crossing{
+        call.rays.id(i), 0.0f, geometry, call.context.embree.instID[0], 0, false};
     const auto primitive = static_cast<int32_t>(call.primitive);
     if (call.geometry.records != nullptr) {
         const ShapeRecord& record = call.geometry.records[call.primitive];

@@ -42,8 +42,9 @@ bool is_opaque_there(const ShapeGeometry& geometry,
 /// passes_surface for a primitive of shapes.
 bool passes_shape(const ShapeGeometry& geometry, const QueryContext& context, unsigned instance);
 
-/// An intersection of a ray with a shape, for Accel::list_crossings.
+/// An intersection of a ray with a shape, for Accel::list_crossings and Accel::list_surfaces.
 struct ShapeCrossing {
+    unsigned ray = 0;  ///< its id
     float t = 0;
     unsigned geometry = 0;  ///< Embree's id
     unsigned instance = 0;  ///< likewise

@@ -15,16 +15,10 @@ namespace obscura::dataset {
 
 namespace {
 
-/// The surface that a ray goes on behind, and how far behind it began, in units of rounding.
-struct Passed {
-    std::array<int32_t, 3> surface = {-1, -1, -1};  ///< instance, primitive, triangle
-    float gap = 1;
-};
-
-/// Rays of one row of the frame, and their hits, with the padding that Accel asks for.
-class RowRays {
+/// Rays of a part of the frame, and their hits, with the padding that Accel asks for.
+class PartRays {
 public:
-    explicit RowRays(size_t count) : pixel_(count), passed_(count) {
+    explicit PartRays(size_t count) : pixel_(count) {
         for (auto& column : number_)
             column.resize((count + 15) / 16 * 16);
         for (auto& column : index_)
@@ -33,28 +27,16 @@ public:
 
     int count() const { return count_; }
     uint32_t pixel(int i) const { return pixel_[static_cast<size_t>(i)]; }
-    Vec3f origin(int i) const { return vector(i, 0); }
-    Vec3f direction(int i) const { return vector(i, 3); }
-    float end(int i) const { return number(6, i); }
+    Vec3f origin(int i) const { return {number(0, i), number(1, i), number(2, i)}; }
+    Vec3f direction(int i) const { return {number(3, i), number(4, i), number(5, i)}; }
     float hit_distance(int i) const { return number(7, i); }
-    int32_t hit_instance(int i) const { return index_[0][static_cast<size_t>(i)]; }
-    int32_t hit_primitive(int i) const { return index_[1][static_cast<size_t>(i)]; }
-    std::array<int32_t, 3> hit_surface(int i) const {
-        const auto at = static_cast<size_t>(i);
-        return {index_[0][at], index_[1][at], index_[2][at]};
+    SceneRecords hit_surface(int i) const {
+        return {index_[0][static_cast<size_t>(i)], index_[1][static_cast<size_t>(i)]};
     }
-    const Passed& passed(int i) const { return passed_[static_cast<size_t>(i)]; }
 
-    void clear() { count_ = 0; }
-    /// May overwrite a ray that was read before: rays are only left out.
-    void add(uint32_t pixel,
-             const Vec3f& origin,
-             const Vec3f& direction,
-             float end,
-             const Passed& passed) {
+    void add(uint32_t pixel, const Vec3f& origin, const Vec3f& direction, float end) {
         const auto i = static_cast<size_t>(count_++);
         pixel_[i] = pixel;
-        passed_[i] = passed;
         const std::array<float, 7> values = {
             origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, end};
         for (size_t c = 0; c < values.size(); ++c)
@@ -62,36 +44,48 @@ public:
     }
 
     void intersect(const Accel& accel) {
-        const RayColumns rays{.ox = number_[0].data(),
-                              .oy = number_[1].data(),
-                              .oz = number_[2].data(),
-                              .dx = number_[3].data(),
-                              .dy = number_[4].data(),
-                              .dz = number_[5].data(),
-                              .tfar = number_[6].data(),
-                              .key = nullptr,
-                              .count = count_};
         const HitColumns hits{.t = number_[7].data(),
                               .u = number_[8].data(),
                               .v = number_[9].data(),
                               .instance = index_[0].data(),
                               .primitive = index_[1].data(),
                               .triangle = index_[2].data()};
-        accel.intersect(
-            rays,
-            hits,
-            Coherence::coherent,
-            {.culls_back_faces = true, .fixed_alpha = true, .passes = camera_rays_pass});
+        accel.intersect(columns(), hits, Coherence::coherent, as_seen);
+    }
+
+    /// Leaves out the rays that have hit nothing.
+    void drop_misses() {
+        const int count = count_;
+        count_ = 0;
+        for (int i = 0; i < count; ++i) {
+            if (hit_surface(i).primitive >= 0) add(pixel(i), origin(i), direction(i), number(6, i));
+        }
+    }
+
+    std::vector<MetSurface> list_surfaces(const Accel& accel) const {
+        std::vector<MetSurface> out;
+        accel.list_surfaces(columns(), Coherence::coherent, as_seen, out);
+        return out;
     }
 
 private:
-    float number(size_t column, int i) const { return number_[column][static_cast<size_t>(i)]; }
-    Vec3f vector(int i, size_t column) const {
-        return {number(column, i), number(column + 1, i), number(column + 2, i)};
+    static constexpr SeeThrough as_seen{
+        .culls_back_faces = true, .fixed_alpha = true, .passes = camera_rays_pass};
+
+    RayColumns columns() const {
+        return {.ox = number_[0].data(),
+                .oy = number_[1].data(),
+                .oz = number_[2].data(),
+                .dx = number_[3].data(),
+                .dy = number_[4].data(),
+                .dz = number_[5].data(),
+                .tfar = number_[6].data(),
+                .key = nullptr,
+                .count = count_};
     }
+    float number(size_t column, int i) const { return number_[column][static_cast<size_t>(i)]; }
 
     std::vector<uint32_t> pixel_;
-    std::vector<Passed> passed_;
     std::array<std::vector<float>, 10> number_;
     std::array<std::vector<int32_t>, 3> index_;
     int count_ = 0;
@@ -120,40 +114,45 @@ PixelRect frame_of(const Scene& scene, const Camera& camera, const RenderOptions
     return {-options.width, -options.height, 3 * options.width, 3 * options.height};
 }
 
-/// The node of a hit; -1: none, or one that the image does not show but what is behind it neither.
-int32_t node_of(const Scene& scene, const RowRays& rays, int i) {
-    const uint8_t flags = scene.visibility.of(rays.hit_primitive(i), rays.hit_instance(i));
+/// The node of a surface; -1: of one that the image does not show, but what is behind it neither.
+int32_t node_of(const Scene& scene, const SceneRecords& surface) {
+    const uint8_t flags = scene.visibility.of(surface.primitive, surface.instance);
     if ((flags & visibility_no_object) != 0) return -1;
-    const int32_t node = scene.primitives[static_cast<size_t>(rays.hit_primitive(i))].node;
-    if (rays.hit_instance(i) < 0) return node;
-    return std::max(node, scene.instances[static_cast<size_t>(rays.hit_instance(i))].node);
-}
-
-int32_t material_of(const Scene& scene, const RowRays& rays, int i) {
-    return scene.primitives[static_cast<size_t>(rays.hit_primitive(i))].material;
+    const int32_t node = scene.primitives[static_cast<size_t>(surface.primitive)].node;
+    if (surface.instance < 0) return node;
+    return std::max(node, scene.instances[static_cast<size_t>(surface.instance)].node);
 }
 
 using NodePixel = std::pair<int32_t, uint32_t>;
 
-/// Traces one row after the other.
+/// Rows that are traced together, in squares of 16 rays, so that the rays of a packet of Embree's
+/// stay close together in small images, too.
+constexpr int band_rows = 4;
+constexpr int packet_columns = 4;
+
+/// Traces one band of rows after the other.
 class Tracer {
 public:
-    Tracer(const PreparedScene& prepared, const Camera& camera, int surfaces, RayLabels& out)
+    Tracer(const PreparedScene& prepared, const Camera& camera, Depth depth, RayLabels& out)
         : scene_(prepared.scene()),
           accel_(prepared.accel()),
           camera_(camera),
-          surfaces_(surfaces),
+          depth_(depth),
           out_(out),
           camera_from_world_(inverse(camera.world_from_camera)) {}
 
-    /// The surfaces that the row's rays cross, by node; the row's own pixels of the image.
-    std::vector<NodePixel> trace(int row) const {
-        RowRays rays(static_cast<size_t>(out_.frame.width));
-        begin(row, rays);
-        std::vector<NodePixel> found;
-        for (int surface = 0; surface < surfaces_ && rays.count() > 0; ++surface) {
-            rays.intersect(accel_);
-            pass(surface == 0, rays, found);
+    /// The surfaces that the band's rays cross, by node; the band's own pixels of the image.
+    std::vector<NodePixel> trace(int band) const {
+        PartRays rays(static_cast<size_t>(out_.frame.width) * band_rows);
+        begin(band, rays);
+        rays.intersect(accel_);
+        std::vector<NodePixel> found = note_nearest(rays);
+        if (depth_ == Depth::all) {
+            rays.drop_misses();
+            for (const MetSurface& met : rays.list_surfaces(accel_)) {
+                const int32_t node = node_of(scene_, met.surface);
+                if (node >= 0) found.emplace_back(node, rays.pixel(met.index));
+            }
         }
         std::sort(found.begin(), found.end());
         found.erase(std::unique(found.begin(), found.end()), found.end());
@@ -161,22 +160,35 @@ public:
     }
 
 private:
-    void begin(int row, RowRays& rays) const {
+    void begin(int band, PartRays& rays) const {
         const PixelRect& frame = out_.frame;
-        const float y =
-            (static_cast<float>(frame.y + row) + 0.5f) / static_cast<float>(out_.height);
+        const int first = band * band_rows;
+        const int end = std::min(first + band_rows, frame.height);
         visit_model(camera_, false, [&](auto maker) {
-            for (int column = 0; column < frame.width; ++column) {
-                const float x =
-                    (static_cast<float>(frame.x + column) + 0.5f) / static_cast<float>(out_.width);
-                const FilmPoint<float> point{{x, y}, {x, y}, {0.5f, 0.5f}};
-                const auto made = world_ray<decltype(maker)>(camera_, point);
-                const float length = length_of(camera_, made);
-                if (!(length > 0)) continue;
-                const auto pixel = static_cast<uint32_t>(row * frame.width + column);
-                rays.add(pixel, made.ray.origin, made.ray.direction, length, {});
+            for (int left = 0; left < frame.width; left += packet_columns) {
+                const int right = std::min(left + packet_columns, frame.width);
+                for (int row = first; row < end; ++row)
+                    begin_run<decltype(maker)>({left, row, right - left, 1}, rays);
             }
         });
+    }
+
+    /// Begins the rays of pixels beside each other in one row of the frame.
+    template <typename Maker>
+    void begin_run(const PixelRect& run, PartRays& rays) const {
+        const PixelRect& frame = out_.frame;
+        const float y =
+            (static_cast<float>(frame.y + run.y) + 0.5f) / static_cast<float>(out_.height);
+        for (int column = run.x; column < run.x + run.width; ++column) {
+            const float x =
+                (static_cast<float>(frame.x + column) + 0.5f) / static_cast<float>(out_.width);
+            const FilmPoint<float> point{{x, y}, {x, y}, {0.5f, 0.5f}};
+            const auto made = world_ray<Maker>(camera_, point);
+            const float length = length_of(camera_, made);
+            if (!(length > 0)) continue;
+            const auto pixel = static_cast<uint32_t>(run.y * frame.width + column);
+            rays.add(pixel, made.ray.origin, made.ray.direction, length);
+        }
     }
 
     float depth_of(const Vec3f& place) const {
@@ -184,50 +196,41 @@ private:
         return measures_from_eye(camera_.model) ? length(local) : -local.z;
     }
 
-    /// Notes the hits, and lets the rays that have hit something go on behind it.
-    void pass(bool is_first, RowRays& rays, std::vector<NodePixel>& found) const {
-        constexpr float rounding = 2.4e-7f;  // of a hit's place
-        const int count = rays.count();
-        rays.clear();
-        for (int i = 0; i < count; ++i) {
-            if (rays.hit_primitive(i) < 0) continue;
+    /// The nearest surfaces, in the image's pixels also by themselves.
+    std::vector<NodePixel> note_nearest(const PartRays& rays) const {
+        std::vector<NodePixel> found;
+        for (int i = 0; i < rays.count(); ++i) {
+            const SceneRecords surface = rays.hit_surface(i);
+            if (surface.primitive < 0) continue;
+            const int32_t node = node_of(scene_, surface);
+            if (node < 0) continue;
             const uint32_t pixel = rays.pixel(i);
-            const Vec3f origin = rays.origin(i);
-            const Vec3f direction = rays.direction(i);
-            const float t = rays.hit_distance(i);
-            const int32_t node = node_of(scene_, rays, i);
-            if (node >= 0) found.emplace_back(node, pixel);
-            if (is_first && out_.is_inside(pixel)) {
-                const size_t index = out_.image_index(pixel);
-                out_.node[index] = node;
-                if (node >= 0) {
-                    out_.material[index] = material_of(scene_, rays, i);
-                    out_.depth_m[index] = depth_of(origin + direction * t);
-                }
-            }
-            // A ray that grazes a surface meets it again until it begins far enough behind it.
-            Passed passed{rays.hit_surface(i)};
-            if (passed.surface == rays.passed(i).surface) passed.gap = 4 * rays.passed(i).gap;
-            const float step = t + passed.gap * rounding * (length(origin) + t);
-            if (step < rays.end(i))
-                rays.add(pixel, origin + direction * step, direction, rays.end(i) - step, passed);
+            found.emplace_back(node, pixel);
+            if (!out_.is_inside(pixel)) continue;
+            const size_t index = out_.image_index(pixel);
+            const auto primitive = static_cast<size_t>(surface.primitive);
+            out_.node[index] = node;
+            out_.material[index] = scene_.primitives[primitive].material;
+            out_.depth_m[index] =
+                depth_of(rays.origin(i) + rays.direction(i) * rays.hit_distance(i));
         }
+        return found;
     }
 
     const Scene& scene_;
     const Accel& accel_;
     const Camera& camera_;
-    int surfaces_;  ///< that are looked for along each ray
+    Depth depth_;
     RayLabels& out_;
     Affinef camera_from_world_;
 };
 
-/// Sorts the rows' pixels by node.
-std::vector<Silhouette> join(const std::vector<std::vector<NodePixel>>& rows) {
+/// Sorts the bands' pixels by node.
+std::vector<Silhouette> join(const std::vector<std::vector<NodePixel>>& bands) {
     std::vector<Silhouette> out;
     std::vector<int32_t> place;  // by node: index in `out`, plus 1
-    for (const std::vector<NodePixel>& row : rows) {
-        for (const auto& [node, pixel] : row) {
+    for (const std::vector<NodePixel>& band : bands) {
+        for (const auto& [node, pixel] : band) {
             const auto number = static_cast<size_t>(node);
             if (place.size() <= number) place.resize(number + 1);
             if (place[number] == 0) {
@@ -273,13 +276,14 @@ RayLabels trace_labels(const PreparedScene& prepared,
     out.node.assign(pixels, -1);
     out.material.assign(pixels, -1);
     out.depth_m.assign(pixels, 0.0f);
-    std::vector<std::vector<NodePixel>> rows(static_cast<size_t>(out.frame.height));
-    const Tracer tracer(prepared, camera, takes_all ? max_surfaces : 1, out);
-    parallel_for(rows.size(), [&](size_t row) {
+    const int bands = (out.frame.height + band_rows - 1) / band_rows;
+    std::vector<std::vector<NodePixel>> found(static_cast<size_t>(bands));
+    const Tracer tracer(prepared, camera, depth, out);
+    parallel_for(found.size(), [&](size_t band) {
         const FlushDenormals flush;
-        rows[row] = tracer.trace(static_cast<int>(row));
+        found[band] = tracer.trace(static_cast<int>(band));
     });
-    out.silhouettes = join(rows);
+    out.silhouettes = join(found);
     return out;
 }
 

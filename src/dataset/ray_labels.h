@@ -40,9 +40,6 @@ struct RayLabels {
     size_t image_index(uint32_t pixel) const;
 };
 
-/// Surfaces along one ray that are looked for, at most.
-inline constexpr int max_surfaces = 1000;
-
 /// What of each pixel is traced: the nearest surface of the image's pixels, or all of the frame's.
 enum class Depth { nearest, all };
 

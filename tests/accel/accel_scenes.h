@@ -73,6 +73,25 @@ public:
         return refused;
     }
 
+    std::vector<MetSurface> list_surfaces(const Accel& accel,
+                                          Coherence coherence,
+                                          const SeeThrough& see_through = {}) {
+        std::vector<MetSurface> out;
+        accel.list_surfaces(pad(), coherence, see_through, out);
+        unpad();
+        return out;
+    }
+
+    /// The boundaries of media along one ray, by a query of its own.
+    std::vector<Crossing> list_crossings(const Accel& accel,
+                                         int index,
+                                         const SeeThrough& see_through) {
+        std::vector<Crossing> out;
+        accel.list_crossings(pad(), index, see_through, out);
+        unpad();
+        return out;
+    }
+
     bool hit(int i) const { return primitive[static_cast<size_t>(i)] >= 0; }
 
     std::vector<float> t, u, v;
