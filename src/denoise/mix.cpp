@@ -14,19 +14,29 @@ namespace {
 constexpr size_t unfiltered = candidate_count;
 using Errors = std::array<Plane, candidate_count + 1>;
 
+/// A plane of the same size.
+template <typename Value>
+Plane like(const Plane& plane, const Value& value) {
+    return make_plane(plane.width(), plane.height(), plane.border(), value);
+}
+
 /// Makes errors at bright and dark pixels comparable: 1 / the squared brightness. It is that of a
 /// pixel itself: beside a bright spot, filtered colours would tell a dark pixel to be bright.
 Plane error_scale(const Plane& brightness_root) {
     const Plane& root = brightness_root;
-    return make_plane(root.width(), root.height(), root.border(), [&](int x, int y) {
+    return like(root, [&](int x, int y) {
         const float square = root.row(y)[x] * root.row(y)[x];
         const float brightness = square * square;
         return 1.0f / (brightness * brightness + 1e-4f);
     });
 }
 
-Plane filter_error(const FilterGuides& guides, const FilteredHalves& filtered, const Plane& scale) {
-    return make_plane(scale.width(), scale.height(), scale.border(), [&](int x, int y) {
+/// In   cancelled: by how much the halves tell the error of their mean too large, scaled
+Plane filter_error(const FilterGuides& guides,
+                   const FilteredHalves& filtered,
+                   const Plane& scale,
+                   const Plane& cancelled) {
+    return like(scale, [&](int x, int y) {
         float sum = 0;
         for (size_t c = 0; c < 3; ++c) {
             const float first = filtered.halves[0][c].row(y)[x];
@@ -35,19 +45,26 @@ Plane filter_error(const FilterGuides& guides, const FilteredHalves& filtered, c
                 (first - guides.halves[0][c].row(y)[x]) * (second - guides.halves[1][c].row(y)[x]);
             sum += changes + 0.25f * (first - second) * (first - second);
         }
-        return sum * scale.row(y)[x];
+        return sum * scale.row(y)[x] + cancelled.row(y)[x];
     });
 }
 
 /// Errors as each pixel alone tells them: far too noisy.
 Errors errors_of_pixels(const FilterGuides& guides, const Candidates& candidates) {
     const Plane scale = error_scale(candidates[detail].brightness_root);
+    const Plane variance = halves_variance(guides.halves[0], guides.halves[1]);
+    // Samples are stratified over the pixel: where edges and textures make the noise, most of the
+    // halves' errors cancel in their mean. The product of what a filter changes in either half,
+    // whose errors have opposite signs there, tells as much too little.
+    constexpr float cancels = 0.75f;
+    const Plane cancelled = like(scale, [&](int x, int y) {
+        return cancels * guides.aliasing.row(y)[x] * variance.row(y)[x] * scale.row(y)[x];
+    });
     Errors out;
     for (size_t k = 0; k < candidate_count; ++k)
-        out[k] = filter_error(guides, candidates[k], scale);
-    const Plane variance = halves_variance(guides.halves[0], guides.halves[1]);
-    out[unfiltered] = make_plane(scale.width(), scale.height(), scale.border(), [&](int x, int y) {
-        return variance.row(y)[x] * scale.row(y)[x];
+        out[k] = filter_error(guides, candidates[k], scale, cancelled);
+    out[unfiltered] = like(scale, [&](int x, int y) {
+        return variance.row(y)[x] * scale.row(y)[x] - cancelled.row(y)[x];
     });
     return out;
 }

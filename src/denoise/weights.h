@@ -93,6 +93,7 @@ inline float falloff(float x) {
 struct FilterGuides {
     Rgb halves[2];           ///< colours of the two halves, divided by what the surface reflects
     Plane variance;          ///< of their mean, summed over the channels
+    Plane aliasing;          ///< share of it that edges and textures make
     Plane brightness_root;   ///< the fourth root of their mean's brightness
     Rgb normal, albedo;      ///< in units of what counts as different
     Plane feature_variance;  ///< of these, summed
