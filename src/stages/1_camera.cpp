@@ -51,11 +51,71 @@ void make_centre_rays_of(const BatchSettings& batch,
     }
 }
 
-OBSCURA_INLINE PixelSequence<LanesU> sequence_of(const BatchSettings& batch, LanesU x, LanesU y) {
-    if (batch.z_order_bits < 0)
-        return {pixel_key(x, y, batch.seed_low, batch.seed_high), LanesU(0U)};
+template <typename U>
+OBSCURA_INLINE PixelSequence<U> sequence_of(const BatchSettings& batch, U x, U y) {
+    if (batch.z_order_bits < 0) return {pixel_key(x, y, batch.seed_low, batch.seed_high), U(0U)};
     return z_order_sequence(x, y, batch.seed_low, batch.seed_high, batch.z_order_bits);
 }
+
+/// A group of samples: sample index, number among those of its pixel, pixel, its random numbers.
+struct SampleLanes {
+    LanesI slot, sample, x, y;
+    PixelSequence<LanesU> sequence;
+};
+
+/// The groups of a batch, asked for one after the other.
+class SampleGroups {
+public:
+    OBSCURA_INLINE SampleGroups(const BatchSettings& batch, int count)
+        : batch_(batch),
+          count_(count),
+          inverse_samples_(1.0f / static_cast<float>(batch.samples)),
+          has_pixels_apart_(batch.samples % lane_count == 0) {}
+
+    OBSCURA_INLINE SampleLanes at(int i) {
+        return has_pixels_apart_ ? of_one_pixel(i) : of_any_pixels(i);
+    }
+
+private:
+    OBSCURA_INLINE SampleLanes of_any_pixels(int i) const {
+        const LanesI slot = min(LanesI(i) + lane_numbers(), LanesI(count_ - 1));
+        // Exact: sample indices are far below 2^23, and the half keeps quotients off whole numbers.
+        const LanesI pixel =
+            to_int((from_int<Lanes>(slot) + Lanes(0.5f)) * Lanes(inverse_samples_));
+        const LanesI x = gather<Lanes>(batch_.pixel_x, pixel);
+        const LanesI y = gather<Lanes>(batch_.pixel_y, pixel);
+        return {slot,
+                slot - pixel * LanesI(batch_.samples),
+                x,
+                y,
+                sequence_of(batch_, as_uint(x), as_uint(y))};
+    }
+
+    /// What all lanes have in common is worked out once for a pixel: gathers and hashes are dear.
+    OBSCURA_INLINE SampleLanes of_one_pixel(int i) {
+        if (i == end_) {
+            begin_ = end_;
+            end_ += batch_.samples;
+            const int pixel = pixel_++;
+            x_ = batch_.pixel_x[pixel];
+            y_ = batch_.pixel_y[pixel];
+            sequence_ = sequence_of(batch_, static_cast<uint32_t>(x_), static_cast<uint32_t>(y_));
+        }
+        return {LanesI(i) + lane_numbers(),
+                LanesI(i - begin_) + lane_numbers(),
+                LanesI(x_),
+                LanesI(y_),
+                {LanesU(sequence_.key), LanesU(sequence_.first)}};
+    }
+
+    const BatchSettings& batch_;
+    int count_;
+    float inverse_samples_;
+    bool has_pixels_apart_;  ///< no group has samples of two pixels
+    int pixel_ = 0, begin_ = 0, end_ = 0;
+    int32_t x_ = 0, y_ = 0;
+    PixelSequence<uint32_t> sequence_ = {0, 0};
+};
 
 /// The loop over a batch, for one kind of camera.
 template <typename Maker>
@@ -64,16 +124,11 @@ void make_rays_of(const BatchSettings& batch,
                   const PathColumns& out,
                   const SampleColumns& samples,
                   float* length_m) {
-    const float inverse_samples = 1.0f / static_cast<float>(batch.samples);
     const FilmScale scale(batch);
+    SampleGroups groups(batch, count);
     for (int i = 0; i < count; i += lane_count) {
-        const LanesI slot = min(LanesI(i) + lane_numbers(), LanesI(count - 1));
-        // Exact: sample indices are far below 2^23, and the half keeps quotients off whole numbers.
-        const LanesI pixel = to_int((from_int<Lanes>(slot) + Lanes(0.5f)) * Lanes(inverse_samples));
-        const LanesI sample = slot - pixel * LanesI(batch.samples);
-        const LanesI x = gather<Lanes>(batch.pixel_x, pixel);
-        const LanesI y = gather<Lanes>(batch.pixel_y, pixel);
-        const auto [key, first] = sequence_of(batch, as_uint(x), as_uint(y));
+        const auto [slot, sample, x, y, sequence] = groups.at(i);
+        const auto [key, first] = sequence;
         const LanesU index = reverse_bits(first + as_uint(sample) + LanesU(batch.first_sample));
         const auto u =
             unit_pair<Lanes>(sobol_pair(key, index, static_cast<uint32_t>(RandomUse::film)));
