@@ -99,8 +99,8 @@ public:
                         int index,
                         const SeeThrough& see_through,
                         std::vector<Crossing>& out) const;
-    /// Appends the surfaces that the rays meet in (0, tfar) to `out`: in no order, and a surface as
-    /// often as it is met. None for refused rays. Cut-away faces count. Thread-safe.
+    /// Appends the surfaces that the rays meet in (0, tfar) to `out`: in no order, and a surface
+    /// perhaps several times. None for refused rays. Cut-away faces count. Thread-safe.
     void list_surfaces(const RayColumns& rays,
                        Coherence coherence,
                        const SeeThrough& see_through,

@@ -90,45 +90,55 @@ void store_packet(const Accel::Impl& impl,
 /// Context of a query that records all surfaces along its rays. `common` must come first.
 struct ListingContext {
     QueryContext common;
-    const Accel::Impl& impl;
-    const RayColumns& rays;
-    std::vector<MetSurface>& out;
-    ValidMask valid = {};  ///< Embree may trace idle lanes, too
-    int first = 0;         ///< of the packet's rays
+    const Accel::Impl* impl;
+    const RayColumns* rays;
+    std::vector<MetSurface>* out;
+    ValidMask valid;            ///< Embree may trace idle lanes, too
+    int first;                  ///< of the packet's rays
+    SceneRecords last[packet];  ///< that each ray has met: meshes have many faces
 };
 
 /// Passes what rays meet of analytic shapes on to the query's context.
 struct ShapeList {
     CrossingNotes notes;  ///< must come first
-    const ListingContext& context;
+    ListingContext* context;
 };
 
-void list_surface(const ListingContext& context, unsigned ray, const SceneRecords& surface) {
+bool is_listed(const ListingContext& context, unsigned ray) {
+    return context.valid.lane[static_cast<int>(ray) - context.first] != 0;
+}
+
+void list_surface(ListingContext& context, unsigned ray, const SceneRecords& surface) {
     const auto index = static_cast<int>(ray);
-    if (context.valid.lane[index - context.first] != 0) context.out.push_back({index, surface});
+    SceneRecords& last = context.last[index - context.first];
+    if (last.primitive == surface.primitive && last.instance == surface.instance) return;
+    last = surface;
+    context.out->push_back({index, surface});
 }
 
 void list_shape(CrossingNotes& notes, const ShapeCrossing& met) {
-    const ListingContext& context = reinterpret_cast<ShapeList&>(notes).context;
-    list_surface(context, met.ray, scene_records(context.impl, met.geometry, met.instance));
+    ListingContext& context = *reinterpret_cast<ShapeList&>(notes).context;
+    if (!is_listed(context, met.ray)) return;
+    list_surface(context, met.ray, scene_records(*context.impl, met.geometry, met.instance));
 }
 
 /// Embree filter function: records every face and rejects the hit.
 void list_faces(const RTCFilterFunctionNArguments* args) {
-    const auto& context = *reinterpret_cast<const ListingContext*>(args->context);
+    auto& context = *reinterpret_cast<ListingContext*>(args->context);
     const unsigned n = args->N;
     for (unsigned i = 0; i < n; ++i) {
         if (args->valid[i] == 0) continue;
         args->valid[i] = 0;
         const unsigned ray = RTCRayN_id(args->ray, n, i);
+        if (!is_listed(context, ray)) continue;
         const SceneRecords surface = scene_records(
-            context.impl, RTCHitN_geomID(args->hit, n, i), RTCHitN_instID(args->hit, n, i, 0));
+            *context.impl, RTCHitN_geomID(args->hit, n, i), RTCHitN_instID(args->hit, n, i, 0));
         const Vec3f ng{RTCHitN_Ng_x(args->hit, n, i),
                        RTCHitN_Ng_y(args->hit, n, i),
                        RTCHitN_Ng_z(args->hit, n, i)};
-        const TimedDirection direction = direction_of(context.rays, static_cast<int>(ray));
-        const bool passes =
-            context.common.culls_back_faces && is_hidden_back(context.impl, surface, ng, direction);
+        const TimedDirection direction = direction_of(*context.rays, static_cast<int>(ray));
+        const bool passes = context.common.culls_back_faces &&
+                            is_hidden_back(*context.impl, surface, ng, direction);
         if (!passes) list_surface(context, ray, surface);
     }
 }
@@ -214,8 +224,8 @@ void Accel::list_surfaces(const RayColumns& rays,
                           Coherence coherence,
                           const SeeThrough& see_through,
                           std::vector<MetSurface>& out) const {
-    ListingContext context{{}, *impl_, rays, out};
-    ShapeList shapes{{list_shape}, context};
+    ListingContext context{{}, impl_.get(), &rays, &out, {}, 0, {}};
+    ShapeList shapes{{list_shape}, &context};
     Query query(context.common, asks_coherent(*impl_, coherence));
     query.set_filter(list_faces);
     set_see_through(context.common, rays, see_through);
@@ -225,6 +235,7 @@ void Accel::list_surfaces(const RayColumns& rays,
     for (int first = 0; first < rays.count; first += packet) {
         if (!load_packet(*impl_, rays, first, context.valid, block.ray).any) continue;
         context.first = first;
+        std::fill_n(context.last, packet, SceneRecords{});
         std::fill_n(block.hit.geomID, packet, RTC_INVALID_GEOMETRY_ID);
         std::fill_n(block.hit.instID[0], packet, RTC_INVALID_GEOMETRY_ID);
         std::iota(block.ray.id, block.ray.id + packet, static_cast<unsigned>(first));

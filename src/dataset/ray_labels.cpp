@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 
 namespace obscura::dataset {
@@ -114,7 +113,7 @@ PixelRect frame_of(const Scene& scene, const Camera& camera, const RenderOptions
     return {-options.width, -options.height, 3 * options.width, 3 * options.height};
 }
 
-/// The node of a surface; -1: of one that the image does not show, but what is behind it neither.
+/// The node of a surface; -1: it is no object.
 int32_t node_of(const Scene& scene, const SceneRecords& surface) {
     const uint8_t flags = scene.visibility.of(surface.primitive, surface.instance);
     if ((flags & visibility_no_object) != 0) return -1;

@@ -2,15 +2,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "denoise/aliasing.h"
 
+#include <algorithm>
+#include <array>
+#include <vector>
+
 namespace obscura {
 
 namespace {
 
 constexpr int regression_radius = 1;
-/// Of the sums of squares of differences: far smaller ones explain nothing. Normals of curved
-/// surfaces turn by about as much in a pixel.
+/// Sums of squares of differences over a square of pixels that are far smaller explain nothing:
+/// normals of curved surfaces turn by as much in a pixel, and albedo is rounded.
 constexpr float normal_noise_floor = 1e-3f;
-constexpr float albedo_noise_floor = 1e-12f;
+constexpr float albedo_noise_floor = 1e-8f;
 
 Plane difference(const Plane& first, const Plane& second) {
     return make_plane(first.width(), first.height(), first.border(), [&](int x, int y) {
@@ -88,7 +92,7 @@ Plane aliasing_share(const Rgb* colors, const Rgb* albedo, const Rgb* normal) {
         float* const row = out.row(y);
         for (size_t x = 0; x < width; ++x) {
             const float all = sums.all[x];
-            row[x] = all > 0 ? std::min(sums.explained[x] / all, 1.0f) : 0.0f;
+            row[x] = all > 0 ? std::min(1.0f, sums.explained[x] / all) : 0.0f;
         }
     });
     out.extend();

@@ -91,6 +91,7 @@ DenoiseReport denoise(const DenoiseInput& input,
                       std::span<const NeighborFrame> neighbors) {
     const PlaneSize size{input.width, input.height};
     std::vector<Frame> frames = {make_frame(input, images.subspan(1))};
+    frames[0].guides.aliasing = aliasing_of(input, frames[0]);
     for (const NeighborFrame& neighbor : neighbors)
         frames.push_back(reproject(input, neighbor));
     const FilterGuides& guides = frames[0].guides;

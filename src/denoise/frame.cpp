@@ -119,18 +119,6 @@ void add_variance(const PlaneSize& size, FilterGuides& guides) {
     });
 }
 
-void add_aliasing(const DenoiseInput& input,
-                  const Rgb& reflected,
-                  const PlaneSize& size,
-                  FilterGuides& guides) {
-    Rgb albedo[2], normal[2];
-    for (size_t half = 0; half < 2; ++half) {
-        albedo[half] = divided(size.rgb(input.albedo[half], 3), reflected, size);
-        normal[half] = size.rgb(input.normal[half], 3);
-    }
-    guides.aliasing = aliasing_share(guides.halves, albedo, normal);
-}
-
 void add_brightness(const PlaneSize& size, FilterGuides& guides) {
     guides.brightness_root = size.plane([&](int x, int y) {
         float sum = 0;
@@ -171,6 +159,16 @@ Rgb product(const Rgb& a, const Rgb& b) {
     return out;
 }
 
+Plane aliasing_of(const DenoiseInput& input, const Frame& frame) {
+    const PlaneSize size{input.width, input.height};
+    Rgb albedo[2], normal[2];
+    for (size_t half = 0; half < 2; ++half) {
+        albedo[half] = divided(size.rgb(input.albedo[half], 3), frame.reflected, size);
+        normal[half] = size.rgb(input.normal[half], 3);
+    }
+    return aliasing_share(frame.guides.halves, albedo, normal);
+}
+
 Frame make_frame(const DenoiseInput& input, std::span<const LightImage> layers) {
     const PlaneSize size{input.width, input.height};
     Frame out;
@@ -186,7 +184,6 @@ Frame make_frame(const DenoiseInput& input, std::span<const LightImage> layers) 
         guides.halves[half] = product(raw[half], {keep, keep, keep});
     }
     add_variance(size, guides);
-    add_aliasing(input, out.reflected, size, guides);
     add_brightness(size, guides);
     out.kept = kept_shares(raw, guides, input.first_share, size);
     for (const LightImage& layer : layers) {

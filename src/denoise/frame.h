@@ -40,6 +40,10 @@ struct Frame {
     double outlier_share = 0;
 };
 
+/// Leaves out FilterGuides::aliasing, which only the frame that is filtered needs.
 Frame make_frame(const DenoiseInput& input, std::span<const LightImage> layers);
+
+/// The share of the noise that edges and textures make.
+Plane aliasing_of(const DenoiseInput& input, const Frame& frame);
 
 }  // namespace obscura

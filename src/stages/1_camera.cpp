@@ -70,10 +70,10 @@ public:
         : batch_(batch),
           count_(count),
           inverse_samples_(1.0f / static_cast<float>(batch.samples)),
-          has_pixels_apart_(batch.samples % lane_count == 0) {}
+          are_of_one_pixel_(batch.samples % lane_count == 0) {}
 
     OBSCURA_INLINE SampleLanes at(int i) {
-        return has_pixels_apart_ ? of_one_pixel(i) : of_any_pixels(i);
+        return are_of_one_pixel_ ? of_one_pixel(i) : of_any_pixels(i);
     }
 
 private:
@@ -111,7 +111,7 @@ private:
     const BatchSettings& batch_;
     int count_;
     float inverse_samples_;
-    bool has_pixels_apart_;  ///< no group has samples of two pixels
+    bool are_of_one_pixel_;  ///< each
     int pixel_ = 0, begin_ = 0, end_ = 0;
     int32_t x_ = 0, y_ = 0;
     PixelSequence<uint32_t> sequence_ = {0, 0};

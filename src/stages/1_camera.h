@@ -23,7 +23,7 @@ struct FilmScale {
     }
 };
 
-/// In      batch.pixel_x/y, samples, first_sample: which film points
+/// In      batch.pixel_x/y, samples, first_sample: which film points; count: pixels * samples
 /// Out     out: one path per sample, in sample order; throughput 0 outside the camera's image;
 ///         samples: cleared; length_m: how far each ray may go, null where !limits_rays(camera)
 /// Units   metres; key and sample feed math/sampler.h

@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include "support/shape_scenes.h"
+#include <cmath>
 #include <limits>
 #include <set>
+#include <vector>
 
 namespace obscura::test {
 namespace {
@@ -77,6 +79,31 @@ void expect_all_are_listed(const Scene& scene) {
             EXPECT_EQ(found, expected) << culls;
         }
     }
+}
+
+TEST(ListSurfaces, ASceneCountedByHand) {
+    Scene scene = squares().take();
+    scene.materials[0].flags &= ~material_double_sided;
+    add_shape(
+        scene, make_shape(ShapeKind::sphere, 0.25F), 0);  // inside of the second square's height
+    const BuiltScene built = build(std::move(scene));
+    RayList rays;
+    rays.add({0, 0, 9}, {0, 0, -1});     // down: the squares that face up, and the sphere
+    rays.add({0, 0, 9}, {0, 0, -1}, 6);  // ends at z = 3
+    rays.add({0.9F, 0, -9}, {0, 0, 1});  // up, past the sphere: the others
+    rays.add({50, 0, 9}, {0, 0, -1});    // past all
+    std::vector<std::set<int32_t>> found(4);
+    const SeeThrough see_through{.culls_back_faces = true};
+    for (const MetSurface& met :
+         rays.list_surfaces(built.accel, Coherence::incoherent, see_through)) {
+        EXPECT_EQ(met.surface.instance, -1);
+        found[static_cast<size_t>(met.index)].insert(met.surface.primitive);
+    }
+    using Found = std::set<int32_t>;
+    EXPECT_EQ(found[0], (Found{0, 2, 4, 6}));
+    EXPECT_EQ(found[1], (Found{}));
+    EXPECT_EQ(found[2], (Found{1, 3, 5}));
+    EXPECT_EQ(found[3], (Found{}));
 }
 
 TEST(ListSurfaces, Triangles) {

@@ -108,6 +108,27 @@ TEST_F(TwoSquares, WhatLeavesTheImageCountsInThePixelsOfAll) {
     EXPECT_FALSE(objects[0].visible_box);
 }
 
+TEST_F(TwoSquares, SilhouettesOfSmallAndOddImagesAscend) {
+    for (const auto& [columns, rows] : {std::pair{1, 1}, {3, 7}, {6, 1}, {33, 30}}) {
+        options_.width = columns;
+        options_.height = rows;
+        const Camera camera = test::look_at({0, 0, 10}, {0, 0, 0}, 0.15f, columns, rows);
+        const RayLabels rays = trace_labels(*prepared_, camera, options_);
+        std::vector<std::vector<uint32_t>> pixels(2);
+        for (const Silhouette& silhouette : rays.silhouettes) {
+            EXPECT_TRUE(std::is_sorted(silhouette.pixels.begin(), silhouette.pixels.end()));
+            pixels[static_cast<size_t>(silhouette.node)] = silhouette.pixels;
+        }
+        EXPECT_FALSE(pixels[0].empty());
+        for (size_t node = 0; node < 2; ++node) {
+            for (const uint32_t pixel : pixels[node]) {  // nothing lies before the near square
+                if (!rays.is_inside(pixel)) continue;
+                EXPECT_GE(rays.node[rays.image_index(pixel)], static_cast<int32_t>(node));
+            }
+        }
+    }
+}
+
 TEST_F(TwoSquares, MasksAreOfTheImage) {
     const RayLabels rays = trace(0.75, {1, 0, 0});
     for (const ObjectLabel& object : label_objects(rays, prepared_->scene())) {

@@ -243,12 +243,19 @@ TEST(Sampler, LanesAreTheScalarsBitForBit) {
         const uint32_t low = random.next_uint();
         const uint32_t high = random.next_uint();
         const uint32_t pair = random.next_uint() % 100;
+        const int bits_below = static_cast<int>(pair % 20);
+        const PixelSequence<LanesU> along =
+            z_order_sequence(LanesU(0U) - x, y, low, high, bits_below);
         const LanesU key = pixel_key(x, y, low, high);
         const Vec2<LanesU> bits = sobol_pair(key, reverse_bits(sample), pair);
         const Vec2<Lanes> u = unit_pair<Lanes>(bits);
         for (int i = 0; i < lane_count; ++i) {
             const uint32_t one = pixel_key(lane(x, i), lane(y, i), low, high);
             ASSERT_EQ(lane(key, i), one);
+            const PixelSequence<uint32_t> alone =
+                z_order_sequence(0U - lane(x, i), lane(y, i), low, high, bits_below);
+            ASSERT_EQ(lane(along.key, i), alone.key);
+            ASSERT_EQ(lane(along.first, i), alone.first);
             const Vec2<uint32_t> p = point(one, lane(sample, i), pair);
             ASSERT_EQ(lane(bits.x, i), p.x);
             ASSERT_EQ(lane(bits.y, i), p.y);
