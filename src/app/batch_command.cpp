@@ -9,7 +9,6 @@
 #include "app/part_options.h"
 #include "app/render_command.h"
 #include "app/render_options.h"
-#include "session/image_names.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -32,6 +31,8 @@ Example:
 
   obscura batch job.json --dry-run
       names the files
+  obscura batch job.json --check
+      says what would fail
   obscura batch job.json --skip-existing
       renders what is not there yet)";
 
@@ -41,6 +42,12 @@ constexpr OptionInfo dry_run_option = {
     .help =
         "Print the names of all files, and render nothing. Assets are read where only they "
         "tell cameras or variants"};
+constexpr OptionInfo check_option = {
+    .name = "--check",
+    .help =
+        "Read every asset, look for the cameras and variants of every picture, and report; nothing "
+        "is rendered or written. The exit code is the one that rendering would begin with",
+    .excludes = {"--dry-run"}};
 constexpr OptionInfo part_option = {
     .name = "--part",
     .argument = "I/N|auto",
@@ -84,6 +91,8 @@ Result<std::vector<SceneRun>> runs_of(const BatchJob& job,
             request->lists.part_offset = i;
         }
         request->lists.lists_only = arguments.dry_run;
+        request->lists.makes_folders = true;
+        request->check = arguments.check;
         request->lists.shares_manifest = part.has_value();
         runs.push_back({std::move(*request), options_for_merge(run.arguments)});
         runs.back().places = run.places;
@@ -106,23 +115,21 @@ Result<void> check_own_files(const BatchJob& job,
     return check_not_read(written, read);
 }
 
-/// The folders of files that the job names; where that fails, writing will say why.
-void make_folders(const BatchJob& job, const std::vector<SceneRun>& runs) {
-    const auto make = [](const std::filesystem::path& file) {
+/// The folders of the job's own files; where that fails, writing will say why.
+void make_folders(const BatchJob& job) {
+    for (const auto* file : {&job.manifest, &job.contact_sheet}) {
         std::error_code ignored;
-        std::filesystem::create_directories(file.parent_path(), ignored);
-    };
-    if (job.manifest) make(*job.manifest);
-    if (job.contact_sheet) make(*job.contact_sheet);
-    for (const SceneRun& run : runs) {
-        for (const std::filesystem::path& output : run.request.outputs) {
-            if (!has_fields(output)) make(output);  // else it is made when its name is known
-        }
+        if (*file)
+            std::filesystem::create_directories(std::filesystem::path(**file).parent_path(),
+                                                ignored);
     }
 }
 
 int run_batch(const BatchArguments& arguments) {
     TerminalLog log(verbosity_of(arguments.render));
+    BatchArguments texts = arguments;
+    if (auto fit = check_combinations(batch_command(texts).options); !fit)
+        return report_failure(fit.error(), log);
     std::optional<FilmPart> part;
     if (arguments.part) {
         const Result<FilmPart> parsed = parse_part(*arguments.part, "--part");
@@ -145,9 +152,10 @@ int run_batch(const BatchArguments& arguments) {
     for (const SceneRun& run : *runs)
         requests.push_back(&run.request);
     warn_of_unused_options(*job, requests, log);
-    if (!arguments.dry_run) make_folders(*job, *runs);
+    const bool renders = !arguments.dry_run && !arguments.check;
+    if (renders) make_folders(*job);
     return run_scenes(*runs, arguments.job_file, log, [&]() -> Result<void> {
-        if (!job->contact_sheet || arguments.dry_run) return {};
+        if (!job->contact_sheet || !renders) return {};
         return write_contact_sheet(*job->manifest, *job->contact_sheet);
     });
 }
@@ -158,6 +166,7 @@ Command batch_command(BatchArguments& arguments) {
     Command command{"batch", "Render a job: many assets in many looks", batch_notes};
     command.options = {{job_option, "", &arguments.job_file},
                        {dry_run_option, "", &arguments.dry_run},
+                       {check_option, "", &arguments.check},
                        {part_option, "", &arguments.part}};
     for (const char* name : command_options)
         add_render_option(command, arguments.render, name, "Program");

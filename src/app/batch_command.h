@@ -13,6 +13,7 @@ namespace obscura::app {
 struct BatchArguments {
     std::string job_file;
     bool dry_run = false;
+    bool check = false;
     OptionText part;
     RenderArguments render;  ///< options that all pictures of the job get
 };

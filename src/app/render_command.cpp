@@ -218,7 +218,7 @@ bool stops_all(const Error& error) {
 
 /// Tells the manifest of a rendering that failed before it could do so itself.
 void note_failure(const RenderRequest& request, const Error& error) {
-    if (!request.lists.manifest) return;
+    if (!request.lists.manifest || request.lists.lists_only || request.check) return;
     const ListedImage none;
     ImageOutcome outcome{none, View{}};
     outcome.error = error;

@@ -3,6 +3,7 @@
 #include "accel/embree_version.h"
 #include "app/distinct_files.h"
 #include "app/frame_claim.h"
+#include "app/listed_images.h"
 #include "app/listed_poses.h"
 #include "app/outcome.h"
 #include "app/render_job.h"
@@ -36,22 +37,6 @@ FrameStatistics frame_statistics(const ListedImage& image,
             after.write_s - before.write_s};
 }
 
-/// Whether --part-by frames leaves the frame with this index to another part.
-bool is_of_another_part(const RenderRequest& request, size_t index) {
-    if (!request.part || request.part_by != PartBy::frames) return false;
-    return (index + request.lists.part_offset) % static_cast<size_t>(request.part->count) !=
-           static_cast<size_t>(request.part->index);
-}
-
-/// The indices of the images that this command renders.
-std::vector<size_t> indices_to_render(const RenderRequest& request, size_t count) {
-    std::vector<size_t> out;
-    for (size_t i = 0; i < count; ++i) {
-        if (!is_of_another_part(request, i)) out.push_back(i);
-    }
-    return out;
-}
-
 /// Reads all files once more, which may be long: before loading only where files may be skipped, so
 /// that one that is too large for the memory is refused first.
 void find_facts(Job& job) {
@@ -63,27 +48,6 @@ void find_facts(Job& job) {
                                             : gltf::files_of_asset(job.whole.scene));
     }
     job.facts = facts_of(job.request, asset, isa_name, embree_version(), job.kept.checksums);
-}
-
-/// No two renderings of a job may write one file.
-///
-/// Errors  64 E-USAGE-SAMEFILE
-Result<void> note_files(Job& job, const std::vector<ListedImage>& images) {
-    KeptForLater& kept = job.kept;
-    std::error_code error;
-    for (const ListedImage& image : images) {
-        for (const std::filesystem::path& file : all_files(job.whole, image)) {
-            const auto place = std::filesystem::absolute(file, error).lexically_normal();
-            if (kept.written.try_emplace(place, kept.run).first->second == kept.run) continue;
-            return fail(
-                ExitCode::usage,
-                "E-USAGE-SAMEFILE",
-                file.string(),
-                "another image of this command has this file, or it is read; names must tell "
-                "them apart");
-        }
-    }
-    return {};
 }
 
 /// An error as the manifest has it: with the code by which a signal ends the command, and a text.
@@ -131,7 +95,7 @@ public:
         if (auto before = finish_beside(); done && !before) done = before;
         if (job_.renderer) job_.renderer->statistics().write_s += write_beside_s_;
         if (!done) return done;
-        if (!failures_.empty()) return fail(all_failures());
+        if (failures_.count() > 0) return fail(std::move(failures_).all(asked_));
         return check_none_left(of_others_, job_.request);
     }
 
@@ -280,15 +244,8 @@ private:
         const bool goes_on =
             job_.request.lists.is_asked() && job_.renderer && error.code != ExitCode::stopped_early;
         if (!goes_on) return done;
-        job_.log.warn(image.label.empty() ? image.outputs.front().string() : image.label,
-                      "this image fails: " + error.where + ": " + error.message + " [" + error.id +
-                          "]; the others go on");
+        failures_.add(image, error, job_.log);
         if (!job_.unwritten) job_.watch.begin_preparing();
-        failures_.push_back(error);
-        if (!image.label.empty()) {
-            std::string& message = failures_.back().message;
-            message = image.label + ": " + message;
-        }
         return {};
     }
 
@@ -390,15 +347,8 @@ private:
     }
 
     Turn turn_of(size_t index) const {
-        const size_t done = job_.rendered + job_.skipped + failures_.size() + (beside_ ? 1 : 0);
+        const size_t done = job_.rendered + job_.skipped + failures_.count() + (beside_ ? 1 : 0);
         return {done, asked_, index == 0, index == last_ && !may_come_back()};
-    }
-
-    Error all_failures() {
-        Error out = joined(std::move(failures_));
-        out.message = fmt::format(
-            "{} of {} images failed; the first: {}", out.also.size() + 1, asked_, out.message);
-        return out;
     }
 
     Job& job_;
@@ -408,7 +358,7 @@ private:
     std::optional<Manifest> manifest_;
     std::unique_ptr<WrittenBeside> beside_;  ///< the image before, which has not been counted yet
     std::vector<ListedImage> of_others_;
-    std::vector<Error> failures_;
+    ImageFailures failures_;
     bool has_ended_ = false;  ///< an image's files, written beside the next one, ended the rest
     double write_beside_s_ = 0;
     size_t asked_ = 0;  ///< number of images that this command is to render
@@ -421,50 +371,6 @@ Result<void> render_all(Job& job, Progress& progress) {
     const Result<void> done = FrameRun(job, progress).run();
     if (done) progress.finish();
     return done;
-}
-
-Result<void> note_all_files(Job& job) {
-    ListedPoses poses(job);
-    if (auto listed = poses.find_images(job.log); !listed) return listed;
-    return note_files(job, poses.list().images);
-}
-
-Result<void> list_all(Job& job) {
-    ListedPoses poses(job);
-    if (auto listed = poses.find_images(job.log); !listed) return listed;
-    std::string text;
-    const std::vector<ListedImage>& images = poses.list().images;
-    if (auto own = note_files(job, images); !own) return own;
-    const std::vector<size_t> indices = indices_to_render(job.whole, images.size());
-    for (const size_t i : indices) {
-        for (const std::filesystem::path& file : all_files(job.whole, images[i]))
-            text += escape_control(file.string()) + "\n";
-    }
-    job.log.info(fmt::format("{} images", indices.size()));
-    return print_output(text);
-}
-
-Result<void> check_all(Job& job) {
-    ListedPoses poses(job);
-    if (const Result<void> loaded = poses.load_once(); !loaded) return loaded;
-    if (auto listed = poses.find_images(job.log); !listed) return listed;
-    auto apart = check_distinct_files(job.request, poses.list().images);
-    if (!apart) return apart;
-    RepeatedLog later(job.log, SettingNames::options);
-    const size_t count = poses.list().images.size();
-    for (size_t i = 0; i < count; ++i) {
-        Log& log = i == 0 ? job.log : later.begin();
-        poses.begin_image(i);
-        if (auto posed = poses.pose(i, i + 1 == count, log); !posed) return posed;
-        const Result<ChosenCamera> chosen =
-            choose_unfocused_camera(job.renderer->framed_scene(), job.request, log);
-        if (!chosen) return fail(chosen.error());
-        const Result<void> exposed = expose(job, *chosen, log);
-        if (!exposed) return exposed;
-    }
-    if (!has_isa(job.request.isa)) return fail(missing_isa());
-    job.log.info("checked: nothing forbids to render it; nothing was written");
-    return {};
 }
 
 }  // namespace obscura::app

@@ -159,11 +159,12 @@ bool may_be_read_by_oiio(const std::filesystem::path& environment) {
     return built_in && !*built_in && output_format_of(environment) != OutputFormat::exr;
 }
 
-/// Makes the folders of names by pattern; where that fails, writing will say why.
+/// Makes the folders that the command makes; where that fails, writing will say why.
 void make_folders(const RenderRequest& request, const ListedImage& image) {
-    const auto make = [](const std::filesystem::path& pattern, const std::filesystem::path& file) {
+    const auto make = [&](const std::filesystem::path& pattern, const std::filesystem::path& file) {
         std::error_code ignored;
-        if (has_fields(pattern)) std::filesystem::create_directories(file.parent_path(), ignored);
+        if (has_fields(pattern) || request.lists.makes_folders)
+            std::filesystem::create_directories(file.parent_path(), ignored);
     };
     for (size_t i = 0; i < image.outputs.size(); ++i)
         make(request.outputs[i], image.outputs[i]);
@@ -171,17 +172,35 @@ void make_folders(const RenderRequest& request, const ListedImage& image) {
     make(request.long_run.checkpoint, image.checkpoint);
 }
 
+/// Where to try whether a file can be written: with --check, the folder in which its own would be
+/// made.
+std::filesystem::path place_to_try(const RenderRequest& request,
+                                   const std::filesystem::path& file) {
+    const bool makes = request.lists.makes_folders ||
+                       std::any_of(request.outputs.begin(), request.outputs.end(), has_fields);
+    std::filesystem::path folder = file.parent_path();
+    if (!request.check || !makes || folder.empty()) return file;
+    std::error_code ignored;
+    while (folder.has_relative_path() && !std::filesystem::exists(folder, ignored))
+        folder = folder.parent_path();
+    return folder / file.filename();
+}
+
 Result<void> check_files_of(const RenderRequest& request, const ListedImage& image) {
     const RenderOptions& options = request.options;
     for (const std::filesystem::path& output : image_files(request, image)) {
-        const Result<OutputTarget> target = check_output(output);
-        if (!target) return fail(target.error());
+        Result<OutputTarget> target = check_output(place_to_try(request, output));
+        if (!target) {
+            target.error().where = output.string();
+            return fail(std::move(target.error()));
+        }
         auto fits = check_encoding(*target, request.encoding, options.width, options.height);
         if (!fits) return fits;
     }
     if (!image.segmentation) return {};
     for (const std::filesystem::path& file : segmentation_files(*image.segmentation)) {
-        if (auto writable = check_file_can_be_written(file); !writable) return writable;
+        const auto writable = check_file_can_be_written(place_to_try(request, file));
+        if (!writable) return writable;
     }
     return {};
 }
@@ -207,7 +226,8 @@ Result<void> check_outputs(const RenderRequest& request) {
     for (const auto* file :
          {&request.crypto_manifest, &request.statistics, &request.lists.manifest}) {
         if (!*file) continue;
-        if (auto writable = check_file_can_be_written(**file); !writable) return writable;
+        const auto writable = check_file_can_be_written(place_to_try(request, **file));
+        if (!writable) return writable;
     }
     return {};
 }
@@ -226,7 +246,7 @@ Result<void> check_image_files(const RenderRequest& request,
         if (request.long_run.has_checkpoint)
             is_new = seen.insert(image.checkpoint.parent_path()).second || is_new;
         if (!is_new) continue;
-        make_folders(request, image);
+        if (!request.check) make_folders(request, image);
         const Result<void> writable = check_files_of(request, image);
         any = any || writable;
         if (!writable && !first) first = writable.error();

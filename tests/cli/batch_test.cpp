@@ -423,6 +423,36 @@ TEST_F(Batch, ADryRunTellsOfFilesThatTwoRenderingsHave) {
     EXPECT_THAT(got.err, HasSubstr("another image of this command has this file"));
 }
 
+TEST_F(Batch, ACheckTellsEveryPictureThatWouldFailAndWritesNothing) {
+    json job = small_job();
+    job["contact_sheet"] = "sheet/index.html";
+    job["manifest"] = "told/out.jsonl";
+    const ProgramRun good = batch(job, {"--check"});
+    expect_result(good, 0, "OK");
+    EXPECT_THAT(good.err, HasSubstr("in/quad.gltf is checked: nothing forbids to render it"));
+    folder_.write("views.json", R"({"views": [{"name": "a", "azimuth": 10},
+        {"name": "b", "variant": "red"}, {"name": "c", "camera": "nobody's"}]})");
+    job["options"]["views"] = "views.json";
+    job["outputs"] = {"out/{asset}/{look}/{view}.png"};
+    const ProgramRun bad = batch(job, {"--check"});
+    expect_result(bad, 64, "E-CAM-UNKNOWN");  // pictures of one variant are together
+    EXPECT_THAT(bad.err, HasSubstr("ERROR views.json#/views/2/camera: 4 of 4 renderings failed"));
+    EXPECT_THAT(bad.err, HasSubstr("ERROR views.json#/views/1/variant: red, b: the asset has no"));
+    for (const char* name : {"out", "sheet", "told"})
+        EXPECT_FALSE(fs::exists(folder_ / name)) << name;
+    expect_result(batch(job, {"--check", "--dry-run"}), 64, "E-USAGE-CONFLICT");
+}
+
+/// Folders that a job makes need not be there; those that it could not make do.
+TEST_F(Batch, ACheckTellsOfFoldersThatCannotBeMade) {
+    json job = small_job();
+    folder_.write("out", "a file");
+    expect_result(batch(job, {"--check"}), 73, "E-OUT-CREATE");
+    job["outputs"] = {"fine/{asset}_{look}.png"};
+    expect_result(batch(job, {"--check"}), 0, "OK");
+    EXPECT_FALSE(fs::exists(folder_ / "fine"));
+}
+
 /// Also what only the asset tells, or a file that is read in its turn.
 TEST_F(Batch, MistakesThatShowLaterHaveTheirPlace) {
     const auto fails = [&](const char* patch, int code, const char* id, const char* message) {
