@@ -1,6 +1,7 @@
 // accel/accel.cpp - builds and updates Embree's BVHs from a Scene.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/accel_impl.h"
+#include "accel/coherent_stream.h"
 #include "accel/embree_version.h"
 #include "accel/moving_geometry.h"
 #include "base/parallel.h"
@@ -156,6 +157,7 @@ Result<std::unique_ptr<Accel::Impl>> open_device(const Scene& scene, const Kerne
     if (auto done = require_filters(filters != 0); !done) return fail(done.error());
     rtcSetDeviceErrorFunction(impl->device, note_error, &impl->errors);
     impl->functions = accel_functions_for(kernels.isa);
+    impl->stream_width = stream_width(impl->device);
     Result<MemoryCharge> charge = charge_memory(MemoryUse::bvh, "", 0);
     if (!charge) return fail(std::move(charge.error()));
     impl->memory.charge = std::move(*charge);

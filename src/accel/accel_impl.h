@@ -90,6 +90,7 @@ struct Accel::Impl {
     BuiltGeometry static_geometry;      ///< the static primitives; no scene if there are none
     std::vector<BuiltGeometry> meshes;  ///< as Scene::meshes
     SharedArrays arrays;
+    int stream_width = 0;        ///< see accel/coherent_stream.h
     bool has_instances = false;  ///< in `top`
     RayReach reach;              ///< limits of the rays that `top` can take
     RTCScene splats = nullptr;   ///< all splats, which are not in `top`; null: there are none

@@ -43,7 +43,8 @@ struct QueryContext {
     unsigned char* thin_walls = nullptr;  ///< by ray id: set to 1 if the ray passes one
     std::vector<PassedBack>* passed_backs = nullptr;  ///< see SeeThrough
     const Cutaway* cutaway = nullptr;                 ///< likewise
-    NearestHits* nearest = nullptr;      ///< of the packet; null: hits are as Embree finds them
+    /// Of the packets, one behind the other; null: hits are as Embree finds them.
+    NearestHits* nearest = nullptr;
     CrossingNotes* crossings = nullptr;  ///< records all, hits nothing; see accel/crossings.cpp
 };
 
@@ -137,6 +138,15 @@ public:
     }
     void intersect16(const int* valid, RTCScene scene, RTCRayHit16* rays) {
         rtcIntersect16(valid, scene, &context_.embree, rays);
+    }
+    /// Streams of packets, all of whose rays are valid.
+    void intersect_packets8(RTCScene scene, RTCRayHit8* packets, unsigned count) {
+        auto* const rays = reinterpret_cast<RTCRayHitN*>(packets);
+        rtcIntersectNM(scene, &context_.embree, rays, 8, count, sizeof(RTCRayHit8));
+    }
+    void intersect_packets16(RTCScene scene, RTCRayHit16* packets, unsigned count) {
+        auto* const rays = reinterpret_cast<RTCRayHitN*>(packets);
+        rtcIntersectNM(scene, &context_.embree, rays, 16, count, sizeof(RTCRayHit16));
     }
     void occluded1(RTCScene scene, RTCRay* ray) {
         rtcOccluded1(scene, &context_.embree, ray);

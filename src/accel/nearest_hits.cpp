@@ -131,13 +131,15 @@ OBSCURA_INLINE void keep_nearest_of_many(const Candidates& at, int lane, Nearest
 }
 
 void keep_nearest(const RTCFilterFunctionNArguments* args) {
-    NearestHits& nearest = *reinterpret_cast<const QueryContext*>(args->context)->nearest;
+    const auto& context = *reinterpret_cast<const QueryContext*>(args->context);
     for (unsigned i = 0; i < args->N; i += lane_count) {
         const Candidates at{*args, i};
         uint32_t bits = at.valid_bits();
+        if (bits == 0) continue;
+        const auto first = static_cast<unsigned>(__builtin_ctz(bits));
+        NearestHits& nearest = nearest_hits_of(context, static_cast<unsigned>(at.id(first)));
         if (i + lane_count <= args->N && (bits & (bits - 1)) != 0) {
             // Embree's packets may be narrower than ours, and parts of them.
-            const auto first = static_cast<unsigned>(__builtin_ctz(bits));
             const auto last = 31U - static_cast<unsigned>(__builtin_clz(bits));
             const int lane = at.id(first) - nearest.first_id - static_cast<int>(first);
             const bool are_neighbours =

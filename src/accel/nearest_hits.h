@@ -39,6 +39,12 @@ struct NearestHitCalls {
 
 inline namespace OBSCURA_ISA {
 
+/// Those of a ray's packet.
+OBSCURA_INLINE NearestHits& nearest_hits_of(const QueryContext& context, unsigned ray) {
+    const unsigned number = ray - static_cast<unsigned>(context.nearest->first_id);
+    return context.nearest[number / packet];
+}
+
 /// A candidate of one ray.
 struct CandidateHit {
     float t;

@@ -1,6 +1,7 @@
 // accel/queries.cpp - Accel's ray queries: columns of rays through Embree, in packets of 16.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/accel_impl.h"
+#include "accel/coherent_stream.h"
 #include "accel/infinite_planes.h"
 #include "accel/nearest_hits.h"
 #include "accel/packets.h"
@@ -57,6 +58,7 @@ bool asks_coherent(const Accel::Impl& impl, Coherence coherence) {
 struct Loaded {
     int refused = 0;
     bool any = true;
+    bool all = false;  ///< 16 rays, none refused
 };
 
 Loaded load_packet(
@@ -64,7 +66,7 @@ Loaded load_packet(
     if (rays.count - first >= packet &&
         impl.functions.packets->load(rays, first, impl.reach, out)) {
         std::fill_n(valid.lane, packet, -1);
-        return {};
+        return {.all = true};
     }
     const int refused = mark_valid(rays, first, impl.reach, valid);
     return {refused, load_part(rays, first, valid, out)};
@@ -162,58 +164,112 @@ float largest_coordinate(const Bounds& bounds) {
     return std::isfinite(largest) ? largest : 0.0f;
 }
 
+/// A query for nearest hits.
+class NearestQuery {
+public:
+    NearestQuery(const Accel::Impl& impl,
+                 const RaysAndHits& columns,
+                 bool coherent,
+                 const SeeThrough& see_through)
+        : impl_(impl),
+          columns_(columns),
+          see_through_(see_through),
+          // Packets of 16 for bounces too: where rays diverge Embree continues ray by ray, still
+          // faster than with calls of one ray each (obscura bench shows both).
+          query_(context_, coherent),
+          stream_width_(coherent ? impl.stream_width : 0),
+          scene_size_(largest_coordinate(impl.scene->bounds)) {
+        context_.nearest = nearest_;
+        query_.set_filter(impl.functions.nearest->keep_nearest);
+        set_see_through(context_, columns.rays, see_through);
+        context_.passed_backs = see_through.passed_backs;
+        context_.cutaway = see_through.cutaway;
+        for (RTCRayHit16& block : blocks_) {
+            begin_packets(block.ray);
+            for (float* ng : {block.hit.Ng_x, block.hit.Ng_y, block.hit.Ng_z})
+                std::fill_n(ng, packet, 0.0f);  // read for misses too
+        }
+    }
+
+    /// Returns how many rays are refused.
+    int trace() {
+        int refused = 0;
+        const int count = columns_.rays.count;
+        for (int first = 0; first < count; first += packet) {
+            const Loaded loaded = load(0, first);
+            refused += loaded.refused;
+            const bool may_stream =
+                stream_width_ > 0 && loaded.all && first + stream_packets * packet <= count;
+            if (may_stream && load(1, first + packet).all) {
+                intersect_stream(query_, impl_.top, stream_width_, blocks_);
+                finish(0, first);
+                first += packet;
+                finish(1, first);
+            } else if (loaded.any) {
+                query_.intersect16(valid_[0].lane, impl_.top, &blocks_[0]);
+                finish(0, first);
+            } else {
+                std::fill_n(columns_.hits.primitive + first, packet, -1);
+            }
+        }
+        return refused;
+    }
+
+private:
+    /// Loads the rays from `first` on as one of the packets.
+    Loaded load(int number, int first) {
+        RTCRayHit16& block = blocks_[number];
+        const Loaded loaded = load_packet(impl_, columns_.rays, first, valid_[number], block.ray);
+        std::fill_n(block.hit.geomID, packet, RTC_INVALID_GEOMETRY_ID);
+        std::fill_n(block.hit.instID[0], packet, RTC_INVALID_GEOMETRY_ID);
+        // Embree may trace idle lanes, too: they have hits of their own.
+        if (!loaded.all)
+            std::iota(block.ray.id, block.ray.id + packet, static_cast<unsigned>(first));
+        if (loaded.any)
+            impl_.functions.nearest->begin(block.ray, first, scene_size_, nearest_[number]);
+        return loaded;
+    }
+
+    /// Writes the hits of a packet that was traced.
+    void finish(int number, int first) {
+        RTCRayHit16& block = blocks_[number];
+        std::copy_n(nearest_[number].t, packet, block.ray.tfar);  // Embree looked a little beyond
+        store_packet(impl_, valid_[number], block, columns_.hits, first);
+        settle_tied_hits(impl_, context_, block.hit, first, columns_);
+        if (see_through_.culls_back_faces)
+            pass_hidden_backs(impl_, context_, block.hit, first, columns_);
+        if (see_through_.cutaway != nullptr) {
+            const int end = std::min(first + packet, columns_.rays.count);
+            for (int index = first; index < end; ++index)
+                pass_cutaway(impl_, context_, index, columns_);
+        }
+        if (impl_.infinite_planes.empty()) return;
+        for (int i = 0; i < packet; ++i) {
+            if (valid_[number].lane[i] != 0)
+                meet_infinite_planes(impl_, context_, columns_.rays, columns_.hits, first + i);
+        }
+    }
+
+    const Accel::Impl& impl_;
+    RaysAndHits columns_;
+    const SeeThrough& see_through_;
+    QueryContext context_;
+    Query query_;
+    int stream_width_;
+    float scene_size_;
+    NearestHits nearest_[stream_packets];
+    ValidMask valid_[stream_packets];
+    RTCRayHit16 blocks_[stream_packets];
+};
+
 }  // namespace
 
 int Accel::intersect(const RayColumns& rays,
                      const HitColumns& hits,
                      Coherence coherence,
                      SeeThrough see_through) const {
-    QueryContext context;
-    // Packets of 16 for bounces too: where rays diverge Embree continues ray by ray, still faster
-    // than with calls of one ray each (obscura bench shows both).
-    Query query(context, asks_coherent(*impl_, coherence));
-    NearestHits nearest;
-    const float scene_size = largest_coordinate(impl_->scene->bounds);
-    context.nearest = &nearest;
-    query.set_filter(impl_->functions.nearest->keep_nearest);
-    set_see_through(context, rays, see_through);
-    context.passed_backs = see_through.passed_backs;
-    context.cutaway = see_through.cutaway;
-    int refused = 0;
-    ValidMask valid;
-    RTCRayHit16 block;
-    begin_packets(block.ray);
-    for (float* ng : {block.hit.Ng_x, block.hit.Ng_y, block.hit.Ng_z})
-        std::fill_n(ng, packet, 0.0f);  // read for misses too
-    for (int first = 0; first < rays.count; first += packet) {
-        const Loaded loaded = load_packet(*impl_, rays, first, valid, block.ray);
-        refused += loaded.refused;
-        std::fill_n(block.hit.geomID, packet, RTC_INVALID_GEOMETRY_ID);
-        std::fill_n(block.hit.instID[0], packet, RTC_INVALID_GEOMETRY_ID);
-        if (!loaded.any) {
-            std::fill_n(hits.primitive + first, packet, -1);
-            continue;
-        }
-        // Embree may trace idle lanes, too: they have hits of their own.
-        std::iota(block.ray.id, block.ray.id + packet, static_cast<unsigned>(first));
-        impl_->functions.nearest->begin(block.ray, first, scene_size, nearest);
-        query.intersect16(valid.lane, impl_->top, &block);
-        std::copy_n(nearest.t, packet, block.ray.tfar);  // Embree looked a little beyond
-        store_packet(*impl_, valid, block, hits, first);
-        settle_tied_hits(*impl_, context, block.hit, first, {rays, hits});
-        if (see_through.culls_back_faces) {
-            pass_hidden_backs(*impl_, context, block.hit, first, {rays, hits});
-        }
-        if (see_through.cutaway != nullptr) {
-            const int end = std::min(first + packet, rays.count);
-            for (int index = first; index < end; ++index)
-                pass_cutaway(*impl_, context, index, {rays, hits});
-        }
-        if (impl_->infinite_planes.empty()) continue;
-        for (int i = 0; i < packet; ++i) {
-            if (valid.lane[i] != 0) meet_infinite_planes(*impl_, context, rays, hits, first + i);
-        }
-    }
+    const int refused =
+        NearestQuery(*impl_, {rays, hits}, asks_coherent(*impl_, coherence), see_through).trace();
     if (see_through.passed_backs != nullptr && !impl_->infinite_planes.empty()) {
         forget_unseen_backs(hits, *see_through.passed_backs);
     }

@@ -62,8 +62,9 @@ struct RayRecording {
     uint64_t spared(RayKind kind) const;  ///< see RecordedRays
 };
 
-/// How Embree is called: with one ray, or with packets of 16 flagged incoherent or coherent.
-enum class ReplayMode : int { single, packets, coherent_packets };
+/// How Embree is called: with one ray, with packets of 16 flagged incoherent or coherent, or with
+/// streams of such packets, coherent too (accel/coherent_stream.h).
+enum class ReplayMode : int { single, packets, coherent_packets, coherent_streams };
 
 struct ReplayResult {
     double seconds = 0;

@@ -1,6 +1,7 @@
 // accel/replay.cpp - replays recorded rays on bare Embree: the lower bound of a renderer's time.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/accel_impl.h"
+#include "accel/coherent_stream.h"
 #include "accel/packets.h"
 #include "accel/ray_recording.h"
 #include "accel/safe_ray.h"
@@ -109,6 +110,47 @@ ValidMask first_lanes(int count) {
     return valid;
 }
 
+void add_hits(const RTCRayHit16& block, int count, Tally& tally) {
+    for (int i = 0; i < count; ++i) {
+        const bool hit = block.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
+        tally.hits += hit ? 1 : 0;
+        tally.checksum += hit ? std::bit_cast<uint32_t>(block.ray.tfar[i]) : 0U;
+    }
+}
+
+/// Loads rays as hits to be found.
+void load_unhit(
+    const Accel::Impl& impl, const RayColumns& rays, int first, int count, RTCRayHit16& out) {
+    load_sixteen(impl, rays, first, count, out.ray);
+    std::fill_n(out.hit.geomID, packet, RTC_INVALID_GEOMETRY_ID);
+    std::fill_n(out.hit.instID[0], packet, RTC_INVALID_GEOMETRY_ID);
+}
+
+Tally intersect_streams(const Accel::Impl& impl, const Chunk& chunk) {
+    QueryContext context;
+    Query query(context, true);
+    give_keys(context, chunk);
+    const RayColumns rays = chunk.rays->columns();
+    Tally tally;
+    RTCRayHit16 blocks[stream_packets];
+    for (RTCRayHit16& block : blocks)
+        begin_packets(block.ray);
+    const auto end = static_cast<int>(chunk.end);
+    for (auto first = static_cast<int>(chunk.begin); first < end;) {
+        int counts[stream_packets];
+        for (int k = 0; k < stream_packets; ++k) {
+            // Where there are no rays left, the last one is traced again, and not counted.
+            counts[k] = std::clamp(end - first, 0, packet);
+            load_unhit(impl, rays, std::min(first, end - 1), std::max(counts[k], 1), blocks[k]);
+            first += packet;
+        }
+        intersect_stream(query, impl.top, impl.stream_width, blocks);
+        for (int k = 0; k < stream_packets; ++k)
+            add_hits(blocks[k], counts[k], tally);
+    }
+    return tally;
+}
+
 Tally intersect_sixteen(const Accel::Impl& impl, const Chunk& chunk, bool coherent) {
     QueryContext context;
     Query query(context, coherent);
@@ -121,15 +163,9 @@ Tally intersect_sixteen(const Accel::Impl& impl, const Chunk& chunk, bool cohere
     for (auto first = static_cast<int>(chunk.begin); first < end; first += packet) {
         const int count = std::min(packet, end - first);
         const ValidMask valid = first_lanes(count);
-        load_sixteen(impl, rays, first, count, block.ray);
-        std::fill_n(block.hit.geomID, packet, RTC_INVALID_GEOMETRY_ID);
-        std::fill_n(block.hit.instID[0], packet, RTC_INVALID_GEOMETRY_ID);
+        load_unhit(impl, rays, first, count, block);
         query.intersect16(valid.lane, impl.top, &block);
-        for (int i = 0; i < count; ++i) {
-            const bool hit = block.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
-            tally.hits += hit ? 1 : 0;
-            tally.checksum += hit ? std::bit_cast<uint32_t>(block.ray.tfar[i]) : 0U;
-        }
+        add_hits(block, count, tally);
     }
     return tally;
 }
@@ -160,6 +196,7 @@ Tally replay_chunk(const Accel::Impl& impl, const Chunk& chunk, ReplayMode mode)
         return chunk.any_hit ? occlude_one_by_one(impl.top, chunk)
                              : intersect_one_by_one(impl.top, chunk);
     }
+    if (mode == ReplayMode::coherent_streams) return intersect_streams(impl, chunk);
     const bool coherent = mode == ReplayMode::coherent_packets;
     return chunk.any_hit ? occlude_sixteen(impl, chunk, coherent)
                          : intersect_sixteen(impl, chunk, coherent);
@@ -168,6 +205,9 @@ Tally replay_chunk(const Accel::Impl& impl, const Chunk& chunk, ReplayMode mode)
 }  // namespace
 
 ReplayResult Accel::replay(const RayRecording& recording, RayKind kind, ReplayMode mode) const {
+    const bool has_streams = impl_->stream_width > 0 && !impl_->has_instances;
+    if (mode == ReplayMode::coherent_streams && (kind == RayKind::shadow || !has_streams))
+        mode = ReplayMode::coherent_packets;
     // With instances, the coherent AVX-512 kernel of Embree 3.13 may hang.
     if (kind == RayKind::shadow && impl_->has_instances && mode == ReplayMode::coherent_packets) {
         mode = ReplayMode::packets;

@@ -242,18 +242,19 @@ void note_crossings(const Call& call, int i, unsigned geometry) {
 
 /// Ends a ray at a hit, unless the hit so far comes first: see NearestHits.
 OBSCURA_INLINE bool stops(const Call& call, int i, const Found& found, unsigned geometry) {
-    NearestHits* const nearest = call.context.nearest;
-    if (nearest == nullptr) {
+    if (call.context.nearest == nullptr) {
         call.rays.tfar()[i] = found.t;
         return true;
     }
-    const int lane = static_cast<int>(call.rays.id(i)) - nearest->first_id;
+    const auto id = static_cast<unsigned>(call.rays.id(i));
+    NearestHits& nearest = nearest_hits_of(call.context, id);
+    const int lane = static_cast<int>(id) - nearest.first_id;
     const CandidateHit candidate{found.t,
                                  static_cast<int32_t>(call.context.embree.instID[0]),
                                  static_cast<int32_t>(geometry),
                                  found.index};
-    if (!takes(*nearest, lane, candidate)) return false;
-    float coordinates = nearest->coordinates[lane];
+    if (!takes(nearest, lane, candidate)) return false;
+    float coordinates = nearest.coordinates[lane];
     if (candidate.instance >= 0) {
         const ShapeRay<float> ray = call.rays.ray(i);
         coordinates = max(coordinates, own_coordinates(ray.origin, ray.direction));

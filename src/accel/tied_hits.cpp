@@ -77,8 +77,11 @@ void settle_tied_hits(const Accel::Impl& impl,
         TieContext tie{context};
         tie.common.passed_backs = nullptr;  // recorded before
         const RTCRayHit found = ask_again(impl, tie.common, keep_lowest, rays, index);
-        if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) continue;
         store_hit(impl, found, hits, index);
+        if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) {  // past the rim of a mesh
+            hits.t[index] = std::numeric_limits<float>::infinity();
+            continue;
+        }
         hit.Ng_x[i] = found.hit.Ng_x;
         hit.Ng_y[i] = found.hit.Ng_y;
         hit.Ng_z[i] = found.hit.Ng_z;

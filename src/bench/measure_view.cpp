@@ -21,6 +21,7 @@ struct ModeTimes {
 std::vector<ModeTimes> modes_of(RayKind kind) {
     std::vector<ModeTimes> modes = {{ReplayMode::single, {}}, {ReplayMode::packets, {}}};
     if (kind != RayKind::bounce) modes.push_back({ReplayMode::coherent_packets, {}});
+    if (kind == RayKind::camera) modes.push_back({ReplayMode::coherent_streams, {}});
     return modes;
 }
 

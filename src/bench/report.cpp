@@ -22,6 +22,8 @@ const char* replay_mode_name(ReplayMode mode) {
             return "packets of 16";
         case ReplayMode::coherent_packets:
             return "coherent packets of 16";
+        case ReplayMode::coherent_streams:
+            return "coherent streams of 32";
     }
     return "unknown";
 }

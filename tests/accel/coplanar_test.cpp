@@ -153,6 +153,40 @@ TEST(CoplanarSurfaces, AHitIsThatOfTheRayAlone) {
     }
 }
 
+/// Rays through the pixels of a picture, from one point or all along one direction.
+RayList rays_of_a_camera(const Vec3f& eye, bool is_orthographic) {
+    RayList rays;
+    constexpr int side = 60;  // no whole streams in a row
+    for (int i = 0; i < side * side; ++i) {
+        const float x = static_cast<float>(i % side) / side - 0.45F;
+        const float y = static_cast<float>(i / side) / side - 0.55F;
+        if (is_orthographic) {
+            rays.add(eye + Vec3f{2 * x, 2 * y, 0}, {0, -0.0F, -1});
+        } else {
+            rays.add(eye, {x, y, -0.8F});
+        }
+    }
+    return rays;
+}
+
+/// As they go much the same way, they are traced in streams.
+TEST(CoplanarSurfaces, RaysOfACameraHitWhatEachHitsAlone) {
+    for (const Isa isa : all_isas()) {
+        const std::string name = embree_isa_for(isa);
+        for (const Affined& turn : {scaling(1, 1, 1), turned()}) {
+            const BuiltScene meshes = build(cube_of_two_layers(turn), name);
+            Scene scene = cube_of_two_layers(turn);
+            add_shape(scene, make_shape(ShapeKind::sphere, 0.3F), 0);
+            add_shape(scene, make_shape(ShapeKind::box, 1, 0.5F, 1), 0);
+            const BuiltScene mixed = build(std::move(scene), name);
+            for (const Vec3f& eye : {Vec3f{0.1F, 0.2F, 0.9F}, Vec3f{0, 0, 3}, Vec3f{4, 3, 20}}) {
+                EXPECT_EQ(other_hits(mixed.accel, rays_of_a_camera(eye, false)), 0) << name;
+                EXPECT_EQ(other_hits(meshes.accel, rays_of_a_camera(eye, true)), 0) << name;
+            }
+        }
+    }
+}
+
 TEST(CoplanarSurfaces, ShapesCountAsTriangles) {
     const RayList rays = rays_at_the_cube();
     Scene scene = cube_of_two_layers(scaling(1, 1, 1));

@@ -11,8 +11,10 @@
 namespace obscura::test {
 namespace {
 
-constexpr ReplayMode all_modes[] = {
-    ReplayMode::single, ReplayMode::packets, ReplayMode::coherent_packets};
+constexpr ReplayMode all_modes[] = {ReplayMode::single,
+                                    ReplayMode::packets,
+                                    ReplayMode::coherent_packets,
+                                    ReplayMode::coherent_streams};
 /// More than one thread takes at a time, and not whole packets.
 constexpr size_t ray_count = 5003;
 
@@ -143,10 +145,11 @@ struct Recorded {
     Expected expected;
 };
 
-/// The queries ask packets of 16.
+/// The queries ask packets of 16, or streams of two.
 void expect_same_hits(const Accel& accel, RayKind kind, SeeThrough see_through) {
     for (const ReplayMode mode : all_modes) {
-        const bool coherent = mode == ReplayMode::coherent_packets;
+        const bool coherent =
+            mode == ReplayMode::coherent_packets || mode == ReplayMode::coherent_streams;
         const Recorded recorded(
             accel, coherent ? Coherence::coherent : Coherence::incoherent, see_through);
         const ReplayResult got = accel.replay(recorded.recording, kind, mode);
