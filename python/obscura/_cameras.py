@@ -1,5 +1,6 @@
 """Views from the cameras of computer vision; docs/cameras.md has the formulas."""
 
+from ._numbers import numbers_of
 from ._obscura import OpenCvCamera, View
 
 
@@ -27,7 +28,7 @@ def from_opencv(
 
 def _five(distortion):
     """Four coefficients leave out k3."""
-    numbers = getattr(distortion, "ravel", lambda: distortion)()
+    numbers = numbers_of("distortion", getattr(distortion, "ravel", lambda: distortion)(), (4, 5))
     return [*numbers, 0] if len(numbers) == 4 else numbers
 
 
@@ -53,12 +54,12 @@ def from_colmap(model, width, height, params, qvec, tvec, **more):
     qvec: (qw, qx, qy, qz), camera from world. tvec: (x, y, z), metres.
     more: as of from_opencv.
     """
+    if not isinstance(model, str):
+        raise TypeError(f"model: expected a name, not {type(model).__name__}")
     if model not in _MODELS:
         raise ValueError(f"model: '{model}' is no choice; expected one of: {', '.join(_MODELS)}")
     count, intrinsics, coefficients = _MODELS[model]
-    params = [float(number) for number in params]
-    if len(params) != count:
-        raise ValueError(f"params: {model} has {count} numbers, not {len(params)}")
+    params = numbers_of(f"params of {model}", params, (count,)).tolist()
     fx, fy, cx, cy = (params[i] for i in intrinsics)
     distortion = [0.0 if i is None else params[i] for i in coefficients]
     return from_opencv(
@@ -75,10 +76,7 @@ def from_colmap(model, width, height, params, qvec, tvec, **more):
 
 def _rotation(qvec):
     """The matrix of a quaternion of any length but zero."""
-    numbers = [float(number) for number in qvec]
-    if len(numbers) != 4:
-        raise ValueError(f"qvec: expected qw, qx, qy, qz, not {len(numbers)} numbers")
-    w, x, y, z = numbers
+    w, x, y, z = numbers_of("qvec", qvec, (4,)).tolist()
     square = w * w + x * x + y * y + z * z
     if not square > 0:
         raise ValueError("qvec: it is no rotation, for its length is zero")

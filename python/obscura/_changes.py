@@ -5,6 +5,8 @@ SPDX-License-Identifier: Apache-2.0
 
 import numpy as np
 
+from ._numbers import numbers_of
+
 # Properties of materials, and how many numbers they take; of none, one without a list.
 _MATERIAL = {
     "base_color": ("pbrMetallicRoughness/baseColorFactor", (3, 4)),
@@ -61,20 +63,6 @@ def _parts(matrix):
     return matrix[:3, 3], np.linalg.eigh(k)[1][:, 3], scale
 
 
-def _numbers(name, value, sizes):
-    """Finite numbers: one where `sizes` is empty, else a list of one of these lengths."""
-    expected = f"{' or '.join(map(str, sizes))} numbers" if sizes else "a number"
-    try:
-        numbers = np.asarray(value, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise TypeError(f"{name}: expected {expected}, not {value!r}") from None
-    if numbers.shape not in ([(size,) for size in sizes] if sizes else [()]):
-        raise ValueError(f"{name}: expected {expected}, not {value!r}")
-    if not np.isfinite(numbers).all():
-        raise ValueError(f"{name}: expected finite numbers, not {value!r}")
-    return numbers
-
-
 def move(self, node, *, matrix=None, translation=None, rotation=None, scale=None):
     """Places a node in its parent, for the images that follow.
 
@@ -95,7 +83,7 @@ def move(self, node, *, matrix=None, translation=None, rotation=None, scale=None
     parts = {"translation": translation, "rotation": rotation, "scale": scale}
     parts = {name: value for name, value in parts.items() if value is not None}
     for name, value in parts.items():
-        numbers = _numbers(name, value, (4 if name == "rotation" else 3,))
+        numbers = numbers_of(name, value, (4 if name == "rotation" else 3,))
         if name == "rotation" and not np.linalg.norm(numbers) > 0:
             raise ValueError("rotation: expected a quaternion (x, y, z, w) that is not 0")
     for name, value in parts.items():
@@ -126,7 +114,7 @@ def set_material(self, material, **values):
     if unknown:
         raise TypeError(f"{sorted(unknown)[0]}: expected any of {', '.join(_MATERIAL)}")
     for name, value in values.items():
-        numbers = _numbers(name, value, _MATERIAL[name][1])
+        numbers = numbers_of(name, value, _MATERIAL[name][1])
         if not ((numbers >= 0) & (numbers <= 1)).all():
             raise ValueError(f"{name}: expected numbers from 0 to 1, not {value!r}")
     for name, value in values.items():

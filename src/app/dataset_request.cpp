@@ -90,6 +90,8 @@ Result<DatasetRequest> make_dataset_request(const DatasetArguments& arguments) {
         return conflict("--distortion",
                         "cameras of BOP have none; leave it out, or leave out --write bop");
     }
+    if (!arguments.render.aovs.empty() && !arguments.layers_exr)
+        return conflict("--aov", "only EXRs hold layers; add --exr");
     request.dataset.count = request.sampling.count;
     if (auto fits = check_fill(arguments, request.sampling); !fits) return fail(fits.error());
     if (auto chosen = choose_folder(arguments, request); !chosen) return fail(chosen.error());

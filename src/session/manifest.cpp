@@ -99,7 +99,12 @@ Result<Manifest> Manifest::open(const std::filesystem::path& file, bool anew) {
     constexpr int mode = 0666;
     const int flags = O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | (anew ? O_TRUNC : 0);
     const int descriptor = ::open(file.c_str(), flags, mode);
-    if (descriptor < 0) return cannot_write(file);
+    if (descriptor < 0) {
+        return fail(ExitCode::cannot_create,
+                    "E-OUT-CREATE",
+                    file.string(),
+                    std::generic_category().message(errno));
+    }
     Manifest manifest(file, descriptor);
     // Behind a line that was cut off, a new one begins.
     char last = '\n';

@@ -186,21 +186,35 @@ std::filesystem::path place_to_try(const RenderRequest& request,
     return folder / file.filename();
 }
 
+/// An error of that place as one of the file.
+tl::unexpected<Error> not_made(Error error,
+                               const std::filesystem::path& tried,
+                               const std::filesystem::path& file) {
+    if (tried != file) {
+        error.message = "its folder cannot be made in '" + tried.parent_path().string() + "'";
+        error.where = file.string();
+    }
+    return fail(std::move(error));
+}
+
+Result<void> check_can_be_written(const RenderRequest& request, const std::filesystem::path& file) {
+    const std::filesystem::path tried = place_to_try(request, file);
+    Result<void> writable = check_file_can_be_written(tried);
+    return writable ? writable : not_made(std::move(writable.error()), tried, file);
+}
+
 Result<void> check_files_of(const RenderRequest& request, const ListedImage& image) {
     const RenderOptions& options = request.options;
     for (const std::filesystem::path& output : image_files(request, image)) {
-        Result<OutputTarget> target = check_output(place_to_try(request, output));
-        if (!target) {
-            target.error().where = output.string();
-            return fail(std::move(target.error()));
-        }
+        const std::filesystem::path tried = place_to_try(request, output);
+        Result<OutputTarget> target = check_output(tried);
+        if (!target) return not_made(std::move(target.error()), tried, output);
         auto fits = check_encoding(*target, request.encoding, options.width, options.height);
         if (!fits) return fits;
     }
     if (!image.segmentation) return {};
     for (const std::filesystem::path& file : segmentation_files(*image.segmentation)) {
-        const auto writable = check_file_can_be_written(place_to_try(request, file));
-        if (!writable) return writable;
+        if (auto writable = check_can_be_written(request, file); !writable) return writable;
     }
     return {};
 }
@@ -226,8 +240,7 @@ Result<void> check_outputs(const RenderRequest& request) {
     for (const auto* file :
          {&request.crypto_manifest, &request.statistics, &request.lists.manifest}) {
         if (!*file) continue;
-        const auto writable = check_file_can_be_written(place_to_try(request, **file));
-        if (!writable) return writable;
+        if (auto writable = check_can_be_written(request, **file); !writable) return writable;
     }
     return {};
 }

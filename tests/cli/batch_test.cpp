@@ -423,7 +423,7 @@ TEST_F(Batch, ADryRunTellsOfFilesThatTwoRenderingsHave) {
     EXPECT_THAT(got.err, HasSubstr("another image of this command has this file"));
 }
 
-TEST_F(Batch, ACheckTellsEveryPictureThatWouldFailAndWritesNothing) {
+TEST_F(Batch, ACheckTellsEveryImageThatWouldFailAndWritesNothing) {
     json job = small_job();
     job["contact_sheet"] = "sheet/index.html";
     job["manifest"] = "told/out.jsonl";

@@ -192,9 +192,9 @@ class Render(Case):
         )
         with self.assertRaisesRegex(ValueError, "PINHOLE, SIMPLE_RADIAL"):
             obscura.View.from_colmap("FOV", 40, 24, [], **numbers)
-        with self.assertRaisesRegex(ValueError, "qw, qx, qy, qz, not 3"):
+        with self.assertRaisesRegex(ValueError, "qvec: expected 4 numbers, not"):
             obscura.View.from_colmap("PINHOLE", 40, 24, [1, 1, 1, 1], (1, 0, 0), (0, 0, 0))
-        with self.assertRaisesRegex(ValueError, "4 numbers, not 3"):
+        with self.assertRaisesRegex(ValueError, "params of PINHOLE: expected 4 numbers"):
             obscura.View.from_colmap("PINHOLE", 40, 24, [1, 2, 3], **numbers)
 
     def test_variants(self):
