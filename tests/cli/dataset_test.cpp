@@ -303,6 +303,7 @@ TEST_F(DatasetCommand, MistakesAreRefused) {
     expect_result(dataset({"-o", "d/{view}"}), 64, "E-USAGE-CONFLICT");
     expect_result(
         dataset({"-o", "d", "--write", "bop", "--distortion", "0.1,0"}), 64, "E-USAGE-CONFLICT");
+    EXPECT_THAT(dataset({"-o", "d", "--aov", "depth"}).err, HasSubstr("add --exr"));
     EXPECT_FALSE(fs::exists(folder_ / "d"));
     folder_.write("file", "");
     expect_result(dataset({"-o", "file"}), 73, "E-OUT-CREATE");

@@ -139,6 +139,11 @@ class Changes(support.Case):
             asset.move(0, translation=(0.3, 0, 0), rotation=(0, 0, 0, 0))
         with self.assertRaisesRegex(ValueError, "emissive"):
             asset.set_material(0, base_color=(0, 1, 0), emissive=(1,))
+        with self.assertRaisesRegex(TypeError, "scale: expected 3 numbers"):
+            asset.move(0, translation=(0.3, 0, 0), scale=["1", "1", "1"])
+        for wrong in ("0.3", True):
+            with self.assertRaisesRegex(TypeError, "roughness: expected a number"):
+                asset.set_material(0, base_color=(0, 1, 0), roughness=wrong)
         for a, b in zip(before, self.ids(asset)):
             np.testing.assert_array_equal(a, b)
 

@@ -196,6 +196,11 @@ class Render(Case):
             obscura.View.from_colmap("PINHOLE", 40, 24, [1, 1, 1, 1], (1, 0, 0), (0, 0, 0))
         with self.assertRaisesRegex(ValueError, "params of PINHOLE: expected 4 numbers"):
             obscura.View.from_colmap("PINHOLE", 40, 24, [1, 2, 3], **numbers)
+        for name, model, params in (("model", 1, []), ("params", "PINHOLE", 5)):
+            with self.assertRaisesRegex((TypeError, ValueError), name):
+                obscura.View.from_colmap(model, 40, 24, params, **numbers)
+        with self.assertRaisesRegex((TypeError, ValueError), "distortion: expected 4 or 5"):
+            obscura.View.from_opencv(np.eye(3), np.eye(3), (0, 0, 1), 8, 8, 5)
 
     def test_variants(self):
         file = self.folder / "triangle.gltf"
