@@ -264,7 +264,8 @@ size_t RayLabels::image_index(uint32_t pixel) const {
 RayLabels trace_labels(const PreparedScene& prepared,
                        const Camera& camera,
                        const RenderOptions& options,
-                       Depth depth) {
+                       Depth depth,
+                       const std::atomic<bool>* stop) {
     RayLabels out;
     out.width = options.width;
     out.height = options.height;
@@ -279,6 +280,7 @@ RayLabels trace_labels(const PreparedScene& prepared,
     std::vector<std::vector<NodePixel>> found(static_cast<size_t>(bands));
     const Tracer tracer(prepared, camera, depth, out);
     parallel_for(found.size(), [&](size_t band) {
+        if (stop != nullptr && stop->load(std::memory_order_relaxed)) return;
         const FlushDenormals flush;
         found[band] = tracer.trace(static_cast<int>(band));
     });

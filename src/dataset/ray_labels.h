@@ -5,6 +5,7 @@
 #include "render/render.h"
 #include "scene/visibility.h"
 
+#include <atomic>
 #include <cstdint>
 #include <vector>
 
@@ -46,9 +47,12 @@ enum class Depth { nearest, all };
 /// Traces the labels on all threads. Surfaces count as they do for the layers `id_node` and
 /// `depth`: alpha is a threshold, back faces of single-sided surfaces and what is invisible to the
 /// camera are not there. Equal for any number of threads.
+///
+/// In   stop: what is left when it becomes true is not traced; null: never
 RayLabels trace_labels(const PreparedScene& prepared,
                        const Camera& camera,
                        const RenderOptions& options,
-                       Depth depth = Depth::all);
+                       Depth depth = Depth::all,
+                       const std::atomic<bool>* stop = nullptr);
 
 }  // namespace obscura::dataset

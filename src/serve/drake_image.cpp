@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "serve/drake_image.h"
 
+#include "base/memory_budget.h"
 #include "base/parallel.h"
 #include "image/encode.h"
 #include "session/outputs.h"
 
 #include "dataset/ray_labels.h"
 #include "serve/guarded.h"
+
 namespace obscura::serve {
 
 namespace {
@@ -19,12 +21,35 @@ struct Look {
     AssetRenderer& renderer;
     const ChosenCamera& camera;
     const RenderRequest& request;
-
-    dataset::RayLabels labels() const {
-        return dataset::trace_labels(
-            renderer.prepared(), camera.camera, request.options, dataset::Depth::nearest);
-    }
+    const std::atomic<bool>& stop;
 };
+
+/// The labels of an image, within the budget of memory until they are written.
+struct ChargedLabels {
+    MemoryCharge charge;
+    dataset::RayLabels rays;
+};
+
+Result<Bytes> stopped() {
+    return fail(ExitCode::stopped_early, "E-STOPPED", "render", "stopped on request");
+}
+
+Result<ChargedLabels> trace(const Look& look) {
+    constexpr uint64_t pixel_bytes = 20;  // three words, and what is written
+    const RenderOptions& options = look.request.options;
+    const uint64_t pixels =
+        static_cast<uint64_t>(options.width) * static_cast<uint64_t>(options.height);
+    Result<MemoryCharge> charge =
+        charge_memory(MemoryUse::film,
+                      std::to_string(options.width) + "x" + std::to_string(options.height),
+                      pixels * pixel_bytes);
+    if (!charge) return fail(std::move(charge.error()));
+    ChargedLabels out{std::move(*charge), {}};
+    out.rays = dataset::trace_labels(
+        look.renderer.prepared(), look.camera.camera, options, dataset::Depth::nearest, &look.stop);
+    if (look.stop) return fail(stopped().error());
+    return out;
+}
 
 Result<Bytes> color_image(const Look& look, const DrakeJob& job, Log& log) {
     const RenderHooks hooks{{}, &job.stop, nullptr};
@@ -41,7 +66,9 @@ Result<Bytes> color_image(const Look& look, const DrakeJob& job, Log& log) {
 }
 
 Result<Bytes> depth_image(const Look& look, const DrakeJob& job) {
-    dataset::RayLabels rays = look.labels();
+    Result<ChargedLabels> labels = trace(look);
+    if (!labels) return fail(labels.error());
+    dataset::RayLabels& rays = labels->rays;
     for (float& depth_m : rays.depth_m)
         depth_m = sensed_depth(depth_m, job.wanted.depth_range_m);
     return encode_exact({OutputFormat::tiff, "depth"},
@@ -49,7 +76,9 @@ Result<Bytes> depth_image(const Look& look, const DrakeJob& job) {
 }
 
 Result<Bytes> label_image(const Look& look, const DrakeJob& job) {
-    const dataset::RayLabels rays = look.labels();
+    const Result<ChargedLabels> labels = trace(look);
+    if (!labels) return fail(labels.error());
+    const dataset::RayLabels& rays = labels->rays;
     std::vector<uint8_t> colors;
     std::vector<uint16_t> numbers;
     const bool in_numbers = job.labels == LabelEncoding::number;
@@ -85,7 +114,7 @@ Result<Bytes> make_image(OpenAsset& asset, const DrakeJob& job) {
                     "scene",
                     "it has no camera; expected one, at the pose of the image");
     }
-    const Look look{asset.renderer(), *camera, request};
+    const Look look{asset.renderer(), *camera, request, job.stop};
     switch (job.wanted.image) {
         case DrakeImage::depth:
             return depth_image(look, job);
@@ -95,10 +124,6 @@ Result<Bytes> make_image(OpenAsset& asset, const DrakeJob& job) {
             break;
     }
     return color_image(look, job, log);
-}
-
-Result<Bytes> stopped() {
-    return fail(ExitCode::stopped_early, "E-STOPPED", "render", "stopped on request");
 }
 
 }  // namespace

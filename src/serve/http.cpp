@@ -177,10 +177,13 @@ Result<std::map<std::string, std::string>> Body::form(uint64_t max_bytes) {
     if (is_read_) return out;
     is_read_ = true;
     std::string* field = nullptr;
+    std::string repeated;
     uint64_t bytes = 0;
     const bool is_whole = reader_(
         [&](const httplib::MultipartFormData& part) {
-            field = &out[part.name];
+            const auto [place, is_new] = out.try_emplace(part.name);
+            if (!is_new) repeated = part.name;
+            field = &place->second;
             return true;
         },
         [&](const char* data, size_t count) {
@@ -189,8 +192,14 @@ Result<std::map<std::string, std::string>> Body::form(uint64_t max_bytes) {
             return true;
         });
     if (bytes > max_bytes) return too_large("form", max_bytes);
-    if (is_whole) return out;
-    return fail(ExitCode::bad_data, "E-SERVE-BODY", "form", "it ends before its time");
+    if (!repeated.empty())
+        return fail(ExitCode::bad_data, "E-SERVE-BODY", repeated, "the form has this field twice");
+    if (is_whole && !out.empty()) return out;
+    return fail(ExitCode::bad_data,
+                "E-SERVE-BODY",
+                "form",
+                out.empty() ? "it has no fields; Content-Type must name the boundary between them"
+                            : "it ends before its time");
 }
 
 Result<void> Routes::admit(const httplib::Request& request) const {

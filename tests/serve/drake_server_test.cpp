@@ -1,6 +1,7 @@
 // tests/serve/drake_server_test.cpp - Drake's protocol over HTTP, as its client speaks it.
 // SPDX-License-Identifier: Apache-2.0
 #include "app/serve_request.h"
+#include "base/memory_budget.h"
 #include "base/sha256.h"
 
 #include <OpenImageIO/filesystem.h>
@@ -96,9 +97,11 @@ protected:
         return out;
     }
 
+    /// In   more: fields behind the others
     httplib::Result post(const Fields& fields,
                          const std::string& query = "token=secret",
-                         int patience_ms = 120000) const {
+                         int patience_ms = 120000,
+                         const httplib::MultipartFormDataItems& more = {}) const {
         httplib::Client client("127.0.0.1", server_->port());
         client.set_read_timeout(std::chrono::milliseconds(patience_ms));
         httplib::MultipartFormDataItems items;
@@ -107,6 +110,7 @@ protected:
             items.push_back(
                 {name, value, is_file ? "scene.gltf" : "", is_file ? "model/gltf+json" : ""});
         }
+        items.insert(items.end(), more.begin(), more.end());
         return client.Post("/render?" + query, items);
     }
     std::string image(const Fields& fields, const std::string& more = "") const {
@@ -337,6 +341,26 @@ TEST_F(DrakeServer, WhatIsNoFormIsToldAsText) {
     EXPECT_EQ(got->status, 400);
     EXPECT_THAT(got->body, HasSubstr("E-SERVE-BODY"));
     EXPECT_THAT(got->get_header_value("Content-Type"), HasSubstr("text/plain"));
+}
+
+TEST_F(DrakeServer, AFieldThatIsThereTwiceIsRefused) {
+    const auto got =
+        post(form("color"), "token=secret", 120000, {{"width", std::to_string(96), "", ""}});
+    ASSERT_TRUE(got);
+    EXPECT_EQ(got->status, 400);
+    EXPECT_THAT(got->body, HasSubstr("width: the form has this field twice"));
+}
+
+TEST_F(DrakeServer, LabelsBeyondTheMemoryAreRefused) {
+    Fields fields = form("label");
+    EXPECT_FALSE(image(fields).empty());  // the scene is open now
+    fields["width"] = fields["height"] = "4000";
+    set_memory_limit(program_memory_bytes + (64U << 20), "a test");
+    const auto got = post(fields);
+    remove_memory_limit();
+    ASSERT_TRUE(got);
+    EXPECT_NE(got->status, 200);
+    EXPECT_THAT(got->body, HasSubstr("E-MEM 4000x4000: the film would take"));
 }
 
 TEST_F(DrakeServer, LargeFormsAreRefused) {

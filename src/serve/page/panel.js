@@ -76,6 +76,9 @@ function lensOptions({view, camera, sharp}, size) {
   return depth > 0 ? {fstop, "focus-distance": Number(depth.toPrecision(5))} : {fstop};
 }
 
+/** Other layers have no noise, and no shadows to catch. */
+const showsLight = () => controls.integrator.value === "path";
+
 function lightOptions() {
   const options = {};
   const env = controls.env.value;
@@ -86,7 +89,7 @@ function lightOptions() {
   if (intensity !== 1) options["env-intensity"] = intensity;
   if (controls.background.value === "page") options.page = "white";
   else if (controls.background.value) options.background = controls.background.value;
-  if (controls.catcher.checked) options.catcher = "ground";
+  if (controls.catcher.checked && showsLight()) options.catcher = "ground";
   return options;
 }
 
@@ -98,8 +101,7 @@ function lookOptions() {
   if (display.selectedIndex > 0) options.display = display.value;
   if (display.selectedIndex > 0 || tone.selectedIndex > 0) options.view = tone.value;
   if (controls.integrator.value !== "path") options.integrator = controls.integrator.value;
-  const isLight = controls.integrator.value === "path";  // other layers have no noise
-  if (controls.denoise.checked && isLight) options.denoise = true;
+  if (controls.denoise.checked && showsLight()) options.denoise = true;
   return options;
 }
 
