@@ -59,7 +59,7 @@ def from_colmap(model, width, height, params, qvec, tvec, **more):
     if model not in _MODELS:
         raise ValueError(f"model: '{model}' is no choice; expected one of: {', '.join(_MODELS)}")
     count, intrinsics, coefficients = _MODELS[model]
-    params = numbers_of(f"params of {model}", params, (count,)).tolist()
+    params = numbers_of(f"params of {model}", _as_numbers(params), (count,)).tolist()
     fx, fy, cx, cy = (params[i] for i in intrinsics)
     distortion = [0.0 if i is None else params[i] for i in coefficients]
     return from_opencv(
@@ -74,9 +74,17 @@ def from_colmap(model, width, height, params, qvec, tvec, **more):
     )
 
 
+def _as_numbers(texts):
+    """The words of a line of cameras.txt or images.txt, split, are as good as numbers."""
+    try:
+        return [float(one) if isinstance(one, str) else one for one in texts]
+    except (TypeError, ValueError):
+        return texts
+
+
 def _rotation(qvec):
     """The matrix of a quaternion of any length but zero."""
-    w, x, y, z = numbers_of("qvec", qvec, (4,)).tolist()
+    w, x, y, z = numbers_of("qvec", _as_numbers(qvec), (4,)).tolist()
     square = w * w + x * x + y * y + z * z
     if not square > 0:
         raise ValueError("qvec: it is no rotation, for its length is zero")

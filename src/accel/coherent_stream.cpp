@@ -13,6 +13,7 @@ int stream_width(RTCDevice) {
     return 0;
 }
 
+/// Never called, as the width is 0.
 void intersect_stream(Query&, RTCScene, int, RTCRayHit16*) {}
 
 #else

@@ -9,11 +9,11 @@
 
 namespace obscura {
 
-/// Packets of 16 in a stream.
+/// How many packets of 16 make a stream.
 inline constexpr int stream_packets = 2;
 
-/// Rays in the packets that a device's streams are made of, 16 or 8; 0: it has no streams, or only
-/// slow ones.
+/// How many rays a packet must have, 16 or 8, for the device to trace several as a stream; 0: it
+/// would not, or slowly.
 int stream_width(RTCDevice device);
 
 /// Finds the nearest hits of coherent rays.

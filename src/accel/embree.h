@@ -43,7 +43,7 @@ struct QueryContext {
     unsigned char* thin_walls = nullptr;  ///< by ray id: set to 1 if the ray passes one
     std::vector<PassedBack>* passed_backs = nullptr;  ///< see SeeThrough
     const Cutaway* cutaway = nullptr;                 ///< likewise
-    /// Of the packets, one behind the other; null: hits are as Embree finds them.
+    /// The nearest hits of each packet, as an array; null: hits are as Embree finds them.
     NearestHits* nearest = nullptr;
     CrossingNotes* crossings = nullptr;  ///< records all, hits nothing; see accel/crossings.cpp
 };

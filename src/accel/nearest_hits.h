@@ -28,7 +28,7 @@ struct alignas(64) NearestHits {
 
 /// Compiled once per instruction set, as every ray of a rendering passes here.
 struct NearestHitCalls {
-    /// Forgets the hits of another packet; the ids of this one begin with `first`.
+    /// Begins a packet, whose ids begin with `first`: it has no hits yet.
     ///
     /// In      scene_size: its largest coordinate
     void (*begin)(const RTCRay16& rays, int first, float scene_size, NearestHits& nearest);
@@ -39,7 +39,7 @@ struct NearestHitCalls {
 
 inline namespace OBSCURA_ISA {
 
-/// Those of a ray's packet.
+/// The nearest hits of a ray's packet.
 OBSCURA_INLINE NearestHits& nearest_hits_of(const QueryContext& context, unsigned ray) {
     const unsigned number = ray - static_cast<unsigned>(context.nearest->first_id);
     return context.nearest[number / packet];

@@ -1,4 +1,4 @@
-// accel/queries.cpp - Accel's ray queries: columns of rays through Embree, in packets of 16.
+// accel/queries.cpp - Accel's ray queries: columns of rays through Embree, in packets and streams.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/accel_impl.h"
 #include "accel/coherent_stream.h"
@@ -191,6 +191,9 @@ public:
         }
     }
 
+    NearestQuery(const NearestQuery&) = delete;
+    NearestQuery& operator=(const NearestQuery&) = delete;
+
     /// Returns how many rays are refused.
     int trace() {
         int refused = 0;
@@ -200,6 +203,8 @@ public:
             refused += loaded.refused;
             const bool may_stream =
                 stream_width_ > 0 && loaded.all && first + stream_packets * packet <= count;
+            // If not, the second packet is loaded again on its turn, and its refused rays count
+            // then.
             if (may_stream && load(1, first + packet).all) {
                 intersect_stream(query_, impl_.top, stream_width_, blocks_);
                 finish(0, first);

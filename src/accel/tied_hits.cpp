@@ -7,6 +7,7 @@
 #include "accel/scene_records.h"
 
 #include <algorithm>
+#include <limits>
 #include <tuple>
 
 namespace obscura {

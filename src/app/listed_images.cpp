@@ -25,8 +25,7 @@ bool is_of_another_part(const RenderRequest& request, size_t index) {
 }
 
 /// What rendering would do first.
-Result<void> check_image(Job& job, ListedPoses& poses, size_t index, Log& log) {
-    const bool is_last = index + 1 == poses.list().images.size();
+Result<void> check_image(Job& job, ListedPoses& poses, size_t index, bool is_last, Log& log) {
     poses.begin_image(index);
     if (auto posed = poses.pose(index, is_last, log); !posed) return posed;
     const Result<ChosenCamera> chosen =
@@ -111,21 +110,21 @@ Result<void> check_all(Job& job) {
     if (auto own = note_files(job, images); !own) return own;
     RepeatedLog later(job.log, SettingNames::options);
     ImageFailures failures;
-    for (size_t i = 0; i < images.size(); ++i) {
-        Log& log = i == 0 ? job.log : later.begin();
-        Result<void> checked = check_image(job, poses, i, log);
+    const std::vector<size_t> asked = indices_to_render(job.whole, images.size());
+    for (const size_t i : asked) {
+        Log& log = i == asked.front() ? job.log : later.begin();
+        Result<void> checked = check_image(job, poses, i, i == asked.back(), log);
         if (checked) continue;
         Error error = at_its_view(std::move(checked.error()), poses.list().views[images[i].view]);
         if (!job.whole.lists.is_asked() || error.code == ExitCode::stopped_early)
             return fail(std::move(error));
         failures.add(images[i], error, job.log);
     }
-    if (failures.count() > 0) return fail(std::move(failures).all(images.size()));
+    if (failures.count() > 0) return fail(std::move(failures).all(asked.size()));
     if (!has_isa(job.request.isa)) return fail(missing_isa());
-    job.log.info(
-        fmt::format("{} is checked: nothing forbids to render {}; nothing was written",
-                    job.whole.scene.string(),
-                    images.size() == 1 ? "it" : fmt::format("its {} images", images.size())));
+    job.log.info(fmt::format("{} is checked: nothing forbids to render {}; nothing was written",
+                             job.whole.scene.string(),
+                             asked.size() == 1 ? "it" : fmt::format("{} images", asked.size())));
     return {};
 }
 

@@ -50,7 +50,7 @@ struct ListRequest {
     std::string look = "default";  ///< {look}, of a job of `obscura batch`
     size_t part_offset = 0;        ///< added to an image's index when parts share the images
     bool lists_only = false;       ///< files are named and nothing is rendered
-    bool makes_folders = false;    ///< of all files; else of those whose names have fields
+    bool makes_folders = false;    ///< of all images, not only where names have fields
     bool keeps_asset = false;      ///< a rendering of the same asset follows
 
     /// True when there is a list of images that is no sequence.

@@ -159,62 +159,75 @@ bool may_be_read_by_oiio(const std::filesystem::path& environment) {
     return built_in && !*built_in && output_format_of(environment) != OutputFormat::exr;
 }
 
-/// Makes the folders that the command makes; where that fails, writing will say why.
-void make_folders(const RenderRequest& request, const ListedImage& image) {
-    const auto make = [&](const std::filesystem::path& pattern, const std::filesystem::path& file) {
-        std::error_code ignored;
-        if (has_fields(pattern) || request.lists.makes_folders)
-            std::filesystem::create_directories(file.parent_path(), ignored);
+/// The folders of an image's files that are made where they are missing.
+std::vector<std::filesystem::path> made_folders(const RenderRequest& request,
+                                                const ListedImage& image) {
+    std::vector<std::filesystem::path> folders;
+    const auto add = [&](const std::filesystem::path& pattern, const std::filesystem::path& file) {
+        const bool is_made = has_fields(pattern) || request.lists.makes_folders;
+        if (is_made && file.has_parent_path()) folders.push_back(file.parent_path());
     };
     for (size_t i = 0; i < image.outputs.size(); ++i)
-        make(request.outputs[i], image.outputs[i]);
-    if (image.segmentation) make(*request.segmentation, *image.segmentation);
-    make(request.long_run.checkpoint, image.checkpoint);
+        add(request.outputs[i], image.outputs[i]);
+    if (image.segmentation) add(*request.segmentation, *image.segmentation);
+    add(request.long_run.checkpoint, image.checkpoint);
+    return folders;
 }
 
-/// Where to try whether a file can be written: with --check, the folder in which its own would be
-/// made.
-std::filesystem::path place_to_try(const RenderRequest& request,
-                                   const std::filesystem::path& file) {
-    const bool makes = request.lists.makes_folders ||
-                       std::any_of(request.outputs.begin(), request.outputs.end(), has_fields);
-    std::filesystem::path folder = file.parent_path();
-    if (!request.check || !makes || folder.empty()) return file;
+/// Makes them; where that fails, writing will say why.
+void make_folders(const RenderRequest& request, const ListedImage& image) {
     std::error_code ignored;
-    while (folder.has_relative_path() && !std::filesystem::exists(folder, ignored))
-        folder = folder.parent_path();
-    return folder / file.filename();
+    for (const std::filesystem::path& folder : made_folders(request, image))
+        std::filesystem::create_directories(folder, ignored);
 }
 
-/// An error of that place as one of the file.
-tl::unexpected<Error> not_made(Error error,
-                               const std::filesystem::path& tried,
-                               const std::filesystem::path& file) {
-    if (tried != file) {
-        error.message = "its folder cannot be made in '" + tried.parent_path().string() + "'";
-        error.where = file.string();
-    }
-    return fail(std::move(error));
+bool lacks_folder(const std::filesystem::path& file) {
+    std::error_code ignored;
+    return file.has_parent_path() && !std::filesystem::exists(file.parent_path(), ignored);
 }
 
-Result<void> check_can_be_written(const RenderRequest& request, const std::filesystem::path& file) {
-    const std::filesystem::path tried = place_to_try(request, file);
-    Result<void> writable = check_file_can_be_written(tried);
-    return writable ? writable : not_made(std::move(writable.error()), tried, file);
+/// Whether the folder that a file lacks could be made.
+///
+/// Errors  73 E-OUT-CREATE
+Result<void> check_folder_can_be_made(const std::filesystem::path& file) {
+    std::error_code ignored;
+    std::filesystem::path there = file.parent_path();
+    while (there.has_parent_path() && there.has_relative_path() &&
+           !std::filesystem::exists(there, ignored))
+        there = there.parent_path();
+    if (!std::filesystem::exists(there, ignored)) there = ".";
+    const bool is_folder = std::filesystem::is_directory(there, ignored);
+    if (is_folder && ::access(there.c_str(), W_OK | X_OK) == 0) return {};
+    return fail(ExitCode::cannot_create,
+                "E-OUT-CREATE",
+                file.string(),
+                "its folder cannot be made: '" + there.string() +
+                    (is_folder ? "' cannot be written" : "' is no folder"));
 }
 
 Result<void> check_files_of(const RenderRequest& request, const ListedImage& image) {
     const RenderOptions& options = request.options;
+    std::vector<std::filesystem::path> made;
+    if (request.check) made = made_folders(request, image);
+    const auto is_to_be_made = [&](const std::filesystem::path& file) {
+        return lacks_folder(file) &&
+               std::find(made.begin(), made.end(), file.parent_path()) != made.end();
+    };
     for (const std::filesystem::path& output : image_files(request, image)) {
-        const std::filesystem::path tried = place_to_try(request, output);
-        Result<OutputTarget> target = check_output(tried);
-        if (!target) return not_made(std::move(target.error()), tried, output);
+        const bool is_made = is_to_be_made(output);
+        if (is_made) {
+            if (auto can_be = check_folder_can_be_made(output); !can_be) return can_be;
+        }
+        const Result<OutputTarget> target = is_made ? output_target(output) : check_output(output);
+        if (!target) return fail(target.error());
         auto fits = check_encoding(*target, request.encoding, options.width, options.height);
         if (!fits) return fits;
     }
     if (!image.segmentation) return {};
     for (const std::filesystem::path& file : segmentation_files(*image.segmentation)) {
-        if (auto writable = check_can_be_written(request, file); !writable) return writable;
+        auto writable =
+            is_to_be_made(file) ? check_folder_can_be_made(file) : check_file_can_be_written(file);
+        if (!writable) return writable;
     }
     return {};
 }
@@ -240,7 +253,10 @@ Result<void> check_outputs(const RenderRequest& request) {
     for (const auto* file :
          {&request.crypto_manifest, &request.statistics, &request.lists.manifest}) {
         if (!*file) continue;
-        if (auto writable = check_can_be_written(request, **file); !writable) return writable;
+        const bool is_made = file == &request.lists.manifest && lacks_folder(**file);
+        auto writable =
+            is_made ? check_folder_can_be_made(**file) : check_file_can_be_written(**file);
+        if (!writable) return writable;
     }
     return {};
 }

@@ -438,6 +438,9 @@ TEST_F(Batch, ACheckTellsEveryImageThatWouldFailAndWritesNothing) {
     expect_result(bad, 64, "E-CAM-UNKNOWN");  // pictures of one variant are together
     EXPECT_THAT(bad.err, HasSubstr("ERROR views.json#/views/2/camera: 4 of 4 renderings failed"));
     EXPECT_THAT(bad.err, HasSubstr("ERROR views.json#/views/1/variant: red, b: the asset has no"));
+    job["assets"] = {"in/quad.gltf"};
+    job["looks"] = {"a"};
+    expect_result(batch(job, {"--check", "--part", "1/3"}), 0, "OK");  // the first image alone
     for (const char* name : {"out", "sheet", "told"})
         EXPECT_FALSE(fs::exists(folder_ / name)) << name;
     expect_result(batch(job, {"--check", "--dry-run"}), 64, "E-USAGE-CONFLICT");
@@ -449,7 +452,12 @@ TEST_F(Batch, ACheckTellsOfFoldersThatCannotBeMade) {
     folder_.write("out", "a file");
     expect_result(batch(job, {"--check"}), 73, "E-OUT-CREATE");
     job["outputs"] = {"fine/{asset}_{look}.png"};
+    fs::create_directories(folder_ / "box_day.png");  // where the folder will be, not in it
     expect_result(batch(job, {"--check"}), 0, "OK");
+    // Of an output by name alone `render` makes no folder.
+    expect_result(render("in/box.gltf", {"--check", "-o", "a/{asset}.png", "-o", "b/c.png"}),
+                  73,
+                  "E-OUT-CREATE");
     EXPECT_FALSE(fs::exists(folder_ / "fine"));
 }
 

@@ -139,8 +139,9 @@ class Changes(support.Case):
             asset.move(0, translation=(0.3, 0, 0), rotation=(0, 0, 0, 0))
         with self.assertRaisesRegex(ValueError, "emissive"):
             asset.set_material(0, base_color=(0, 1, 0), emissive=(1,))
-        with self.assertRaisesRegex(TypeError, "scale: expected 3 numbers"):
-            asset.move(0, translation=(0.3, 0, 0), scale=["1", "1", "1"])
+        for wrong in (["1", "1", "1"], [True, 1, 1]):
+            with self.assertRaisesRegex(TypeError, "scale: expected 3 numbers"):
+                asset.move(0, translation=(0.3, 0, 0), scale=wrong)
         for wrong in ("0.3", True):
             with self.assertRaisesRegex(TypeError, "roughness: expected a number"):
                 asset.set_material(0, base_color=(0, 1, 0), roughness=wrong)

@@ -196,7 +196,10 @@ class Render(Case):
             obscura.View.from_colmap("PINHOLE", 40, 24, [1, 1, 1, 1], (1, 0, 0), (0, 0, 0))
         with self.assertRaisesRegex(ValueError, "params of PINHOLE: expected 4 numbers"):
             obscura.View.from_colmap("PINHOLE", 40, 24, [1, 2, 3], **numbers)
-        for name, model, params in (("model", 1, []), ("params", "PINHOLE", 5)):
+        words = obscura.View.from_colmap("PINHOLE", 40, 24, "1 2 3 4".split(), **numbers)
+        self.assertEqual(words, obscura.View.from_colmap("PINHOLE", 40, 24, [1, 2, 3, 4], **numbers))
+        wrong = (("model", 1, []), ("params", "PINHOLE", 5), ("params", "PINHOLE", ["a", 2, 3, 4]))
+        for name, model, params in wrong:
             with self.assertRaisesRegex((TypeError, ValueError), name):
                 obscura.View.from_colmap(model, 40, 24, params, **numbers)
         with self.assertRaisesRegex((TypeError, ValueError), "distortion: expected 4 or 5"):
