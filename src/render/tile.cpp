@@ -13,6 +13,20 @@ namespace obscura {
 
 namespace {
 
+/// Whether tile a comes before b along the Z-shaped curve over the film: tiles that follow one
+/// another lie together, and rays find in the caches what their neighbours left there.
+/// Source  Chan, "Closest-Point Problems Simplified on the RAM", SODA 2002
+bool is_before(const PixelRect& area, int size, const Tile& a, const Tile& b) {
+    const auto place = [&](const Tile& tile) {
+        return std::pair((tile.x - area.x) / size, (tile.y - area.y) / size);
+    };
+    const auto [ax, ay] = place(a);
+    const auto [bx, by] = place(b);
+    const int x = ax ^ bx, y = ay ^ by;
+    const bool is_top_bit_of_x_higher = y < x && y < (x ^ y);
+    return is_top_bit_of_x_higher ? ax < bx : ay < by;
+}
+
 void fill_pattern(int width, int height, TilePattern& pattern) {
     pattern = {width, height, {}, {}, {}};
     for (int block_y = 0; block_y < height; block_y += 4) {
@@ -117,6 +131,9 @@ std::vector<Tile> cut_tiles(const PixelRect& area, int size) {
                              std::min(size, area.height - y)});
         }
     }
+    std::sort(tiles.begin(), tiles.end(), [&](const Tile& a, const Tile& b) {
+        return is_before(area, size, a, b);
+    });
     return tiles;
 }
 

@@ -22,6 +22,7 @@ struct Tile {
     bool operator==(const Tile&) const = default;
 };
 
+/// Cuts an area into tiles of at most size x size pixels, in the order of a Z-shaped curve.
 std::vector<Tile> cut_tiles(const PixelRect& area, int size);
 
 /// Order of a tile's pixels: 4x4 blocks, row by row within a block, so that packets of 16 rays are

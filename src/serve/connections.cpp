@@ -74,6 +74,10 @@ void note_request() {
     if (own != nullptr) own->latest_request = now();
 }
 
+void end_connection() {
+    if (own != nullptr) close(own->socket);
+}
+
 std::function<bool()> client_is_gone() {
     return [socket = own != nullptr ? own->socket.descriptor : -1] {
         char byte = 0;

@@ -20,6 +20,9 @@ namespace obscura::serve {
 /// To be called when a whole request has come, by the thread that answers it.
 void note_request();
 
+/// Closes the connection of this thread: the client gets what was sent, and nothing more is read.
+void end_connection();
+
 /// Whether the client whose request this thread answers has gone; any thread may ask until the
 /// answer is sent.
 std::function<bool()> client_is_gone();

@@ -18,6 +18,8 @@ namespace obscura::serve {
 namespace {
 
 constexpr size_t largest_json = 4U << 20U;
+/// Fields of a form: no request knows as many.
+constexpr size_t max_fields = 256;
 
 tl::unexpected<Error> too_large(const std::string& where, uint64_t bytes) {
     return fail(ExitCode::refused,
@@ -86,6 +88,25 @@ Sender sender_of(const httplib::Request& request) {
 /// their status. Who asks for a range may be given all (RFC 9110, 14.2).
 void ignore_range(const httplib::Request& request) {
     const_cast<httplib::Ranges&>(request.ranges).clear();
+}
+
+/// Whether two programs could read the request differently, one of them before this server: where
+/// its body ends, or whom it is for (RFC 9112, 3.2 and 6.3).
+bool is_ambiguous(const httplib::Request& request) {
+    const auto count = [&](const char* name) { return request.get_header_value_count(name); };
+    const std::string length = request.get_header_value("Content-Length");
+    const bool is_number = length.find_first_not_of("0123456789") == std::string::npos;
+    return count("Host") > 1 || count("Content-Length") + count("Transfer-Encoding") > 1 ||
+           !is_number;
+}
+
+/// The connection ends after the answer: what else comes on it cannot be told from a request.
+void end_after(httplib::Response& response) {
+    response.set_header("Connection", "close");
+}
+
+bool ends_after(const httplib::Response& response) {
+    return response.get_header_value("Connection") == "close";
 }
 
 /// For answers that the library makes itself.
@@ -181,10 +202,11 @@ Result<std::map<std::string, std::string>> Body::form(uint64_t max_bytes) {
     uint64_t bytes = 0;
     const bool is_whole = reader_(
         [&](const httplib::MultipartFormData& part) {
+            is_cut_ = out.size() == max_fields;
             const auto [place, is_new] = out.try_emplace(part.name);
             if (!is_new) repeated = part.name;
             field = &place->second;
-            return true;
+            return !is_cut_;
         },
         [&](const char* data, size_t count) {
             bytes += count;
@@ -192,6 +214,12 @@ Result<std::map<std::string, std::string>> Body::form(uint64_t max_bytes) {
             return true;
         });
     if (bytes > max_bytes) return too_large("form", max_bytes);
+    if (is_cut_) {
+        return fail(ExitCode::refused,
+                    "E-SERVE-SIZE",
+                    "form",
+                    "more than " + std::to_string(max_fields) + " fields, which is the most");
+    }
     if (!repeated.empty())
         return fail(ExitCode::bad_data, "E-SERVE-BODY", repeated, "the form has this field twice");
     if (is_whole && !out.empty()) return out;
@@ -234,6 +262,7 @@ httplib::Server::HandlerWithContentReader Routes::with_body(const WithBody& work
             admitted ? work(request, body) : Result<Answer>(fail(admitted.error()));
         body.drain();
         send(std::move(answer), response);
+        if (body.is_cut()) end_after(response);
     };
 }
 
@@ -264,6 +293,12 @@ void Routes::refuse_the_rest() {
     server_.set_pre_routing_handler([](const httplib::Request& request,
                                        httplib::Response& response) {
         ignore_range(request);
+        if (is_ambiguous(request)) {
+            constexpr int bad_request = 400;
+            send(json_result(error_answer(error_of_status(bad_request)), bad_request), response);
+            end_after(response);
+            return httplib::Server::HandlerResponse::Handled;
+        }
         constexpr std::array<std::string_view, 6> known = {
             "GET", "HEAD", "POST", "PUT", "PATCH", "DELETE"};
         const bool is_known = std::find(known.begin(), known.end(), request.method) != known.end();
@@ -271,6 +306,9 @@ void Routes::refuse_the_rest() {
         constexpr int not_allowed = 405;
         send(json_result(error_answer(error_of_status(not_allowed)), not_allowed), response);
         return httplib::Server::HandlerResponse::Handled;
+    });
+    server_.set_logger([](const httplib::Request& /*request*/, const httplib::Response& response) {
+        if (ends_after(response)) end_connection();
     });
     server_.set_error_handler([](const httplib::Request& /*request*/, httplib::Response& response) {
         if (!response.body.empty() || response.content_length_ > 0) return;

@@ -56,12 +56,15 @@ public:
     /// Errors  77 E-SERVE-SIZE; 65 E-SERVE-BODY
     Result<std::map<std::string, std::string>> form(uint64_t max_bytes);
     void drain();
+    /// Whether the rest was left unread, so that nothing more can be read from the connection.
+    bool is_cut() const { return is_cut_; }
 
 private:
     const httplib::Request& request_;
     const httplib::ContentReader& reader_;
     const uint64_t max_bytes_;
     bool is_read_;
+    bool is_cut_ = false;
 };
 
 /// Makes routes: each is called for those whom the guard lets in.

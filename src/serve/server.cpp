@@ -45,7 +45,8 @@ const httplib::Headers safe_headers = {
      "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"},
     {"X-Content-Type-Options", "nosniff"},
     {"Referrer-Policy", "no-referrer"},
-    {"Cross-Origin-Resource-Policy", "same-origin"}};
+    {"Cross-Origin-Resource-Policy", "same-origin"},
+    {"Accept-Ranges", "none"}};
 
 /// A port that has just become free is taken at once, but never one that another server has: the
 /// library's own options would share it.
@@ -69,10 +70,17 @@ Result<double> fraction(const httplib::Request& request, const char* name) {
         ExitCode::usage, "E-USAGE-RANGE", name, "expected a number from 0 to 1, such as 0.5");
 }
 
-int number_after(const std::string& text) {
+/// The serial number after which a picture is wanted; 0 where none is given.
+Result<int> serial_after(const httplib::Request& request) {
+    const std::string text = parameter(request, "after");
     int value = 0;
-    std::from_chars(text.data(), text.data() + text.size(), value);
-    return value;
+    if (text.empty()) return value;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error == std::errc() && end == text.data() + text.size() && value >= 0) return value;
+    return fail(ExitCode::usage,
+                "E-USAGE-RANGE",
+                "after",
+                "expected the serial number of a picture, a whole number from 0");
 }
 
 /// Gives memory that was freed back to the system: each thread's share of it would stay, and grow
@@ -233,14 +241,15 @@ void Server::Impl::route_views() {
 Result<Answer> Server::Impl::picture(const httplib::Request& request) const {
     const auto viewer = viewer_of(request);
     if (!viewer) return fail(viewer.error());
-    const int after = number_after(parameter(request, "after"));
+    const Result<int> after = serial_after(request);
+    if (!after) return fail(after.error());
     // In short waits: the server's end does not wait for the clients.
     constexpr std::chrono::milliseconds slice(250);
     std::shared_ptr<const ShownImage> picture;
     const std::function<bool()> is_gone = client_is_gone();
     for (auto waited = slice; !picture && waited <= patience_of_polls && !is_ending && !is_gone();
          waited += slice)
-        picture = (*viewer)->wait_for(after, slice);
+        picture = (*viewer)->wait_for(*after, slice);
     if (!picture) {
         Answer nothing;
         nothing.status = 204;

@@ -264,6 +264,10 @@ TEST_F(Serve, EveryErrorIsAnswered) {
         EXPECT_EQ(error_id(failure), "E-CAM-UNKNOWN");
         EXPECT_EQ(error_id(client.get("/api/views/" + view + "/pick?x=2&y=0", 400)),
                   "E-USAGE-RANGE");
+        for (const char* serial : {"abc", "1x", "-1", "99999999999"}) {
+            const std::string path = "/api/views/" + view + "/picture?after=" + serial;
+            EXPECT_EQ(error_id(client.get(path, 400)), "E-USAGE-RANGE");
+        }
         const auto closed = client.http.Delete("/api/views/" + view);
         ServerClient::read(closed, "DELETE", 200);
         EXPECT_EQ(error_id(client.get("/api/views/" + view + "/picture", 404)), "E-SERVE-UNKNOWN");
@@ -326,6 +330,25 @@ TEST_F(Serve, BrokenRequestsAndVanishingClientsDoNoHarm) {
         }
         client.put("/api/views/" + view, {{"options", {{"size", "8x8"}, {"spp", 1}}}});
         EXPECT_EQ(client.picture(view).first.at("width"), 8);
+    });
+}
+
+TEST_F(Serve, RequestsThatCanBeReadInTwoWaysAreRefused) {
+    serve({}, [&](ServerClient& client) {
+        const std::string next = "GET / HTTP/1.1\r\nHost: localhost\r\n\r\n";
+        for (const std::string headers : {"Content-Length: 0\r\nContent-Length: 40\r\n",
+                                          "Content-Length: 40\r\nTransfer-Encoding: chunked\r\n",
+                                          "Content-Length: +0\r\n",
+                                          "Host: 127.0.0.1\r\n"}) {
+            const std::string request = "POST /api/views HTTP/1.1\r\nHost: localhost\r\n";
+            const std::string answer =
+                raw_answer(client.port, request + headers + "\r\n" + next + next);
+            EXPECT_THAT(answer, HasSubstr(" 400 ")) << headers;
+            EXPECT_THAT(answer, HasSubstr("E-SERVE-REQUEST")) << headers;
+            EXPECT_THAT(answer, HasSubstr("Connection: close")) << headers;
+            EXPECT_THAT(answer, testing::Not(HasSubstr(" 200 "))) << headers;
+        }
+        EXPECT_THAT(raw_answer(client.port, next), HasSubstr(" 200 "));
     });
 }
 

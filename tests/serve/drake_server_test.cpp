@@ -371,6 +371,18 @@ TEST_F(DrakeServer, LargeFormsAreRefused) {
     EXPECT_THAT(got->body, HasSubstr("E-SERVE-SIZE"));
 }
 
+TEST_F(DrakeServer, FormsOfManyFieldsAreRefused) {
+    Fields fields = form("color");
+    for (int i = 0; i < 300; ++i)
+        fields["field" + std::to_string(i)] = "1";
+    const auto got = post(fields);
+    ASSERT_TRUE(got);
+    EXPECT_EQ(got->status, 413);
+    EXPECT_THAT(got->body, HasSubstr("form: more than 256 fields"));
+    EXPECT_EQ(got->get_header_value("Connection"), "close");
+    EXPECT_FALSE(image(form("color")).empty());
+}
+
 TEST_F(DrakeServer, AClientThatGoesLeavesTheSceneToOthers) {
     const std::string unlimited = "token=secret&spp=1000000";
     EXPECT_FALSE(post(form("color"), unlimited, 300));
