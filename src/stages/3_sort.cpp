@@ -15,11 +15,10 @@ namespace {
 /// light for have buckets of their own, after those of the others.
 constexpr uint32_t bucket_count = 1024;
 
-/// The hits and misses of a batch, as path indices.
+/// The hits of a batch, as path indices.
 struct Order {
-    SortedCounts counts;
+    int hits = 0;
     uint16_t hit[batch_size];  ///< by primitive; within one primitive in their old order
-    uint16_t miss[batch_size];
 };
 static_assert(batch_size <= 65536);
 
@@ -34,23 +33,40 @@ int mixed_groups(int count, const HitView& hits) {
     return mixed;
 }
 
-void find_order(int count, const HitView& hits, const TreeDraws* tree_draws, Order& order) {
+/// Moves the misses to columns.misses.
+///
+/// Out     hits: the path indices of the others, ascending, and some words more
+SortedCounts take_misses(int count_in, const ShadeColumns& columns, int32_t* hits) {
+    SortedCounts sorted;
+    for (int i = 0; i < count_in; i += lane_count) {
+        const Mask exists = lanes_in_range(i, count_in);
+        const Mask is_hit = exists & (load(columns.hits.primitive + i) >= LanesI(0));
+        const Mask is_miss = exists & (!is_hit);
+        if (any(is_miss)) {
+            sorted.misses = append_misses(columns.misses, sorted.misses, is_miss, columns.paths, i);
+        }
+        if (none(is_hit)) continue;
+        store(hits + sorted.hits, pack(Packer(is_hit), LanesI(i) + lane_numbers()));
+        sorted.hits += count(is_hit);
+    }
+    return sorted;
+}
+
+/// In      hits: indices of `count` paths that hit something
+void find_order(
+    const int32_t* hits, int count, const HitView& at, const TreeDraws* tree_draws, Order& order) {
     uint16_t begins[2 * bucket_count] = {};
     const auto bucket = [&](int index) {
-        const uint32_t own = static_cast<uint32_t>(hits.primitive[index]) % bucket_count;
+        const uint32_t own = static_cast<uint32_t>(at.primitive[index]) % bucket_count;
         if (tree_draws == nullptr) return own;
         const uint32_t group = tree_draws->by_group[index / lane_count];
         return own + bucket_count * ((group >> (index % lane_count)) & 1U);
     };
-    int misses = 0;
     uint32_t last = 0;
-    for (int i = 0; i < count; ++i) {
-        if (hits.primitive[i] < 0) {
-            order.miss[misses++] = static_cast<uint16_t>(i);
-            continue;
-        }
-        ++begins[bucket(i)];
-        last = last > bucket(i) ? last : bucket(i);
+    for (int k = 0; k < count; ++k) {
+        const uint32_t own = bucket(hits[k]);
+        ++begins[own];
+        last = last > own ? last : own;
     }
     uint16_t next = 0;
     for (uint32_t k = 0; k <= last; ++k) {
@@ -58,26 +74,17 @@ void find_order(int count, const HitView& hits, const TreeDraws* tree_draws, Ord
         begins[k] = next;
         next = static_cast<uint16_t>(next + size);
     }
-    for (int i = 0; i < count; ++i) {
-        if (hits.primitive[i] >= 0) order.hit[begins[bucket(i)]++] = static_cast<uint16_t>(i);
-    }
-    order.counts = {count - misses, misses};
-}
-
-void take_misses(const PathView& paths, const Order& order, const MissColumns& out) {
-    const auto column = [&](const auto* from, auto* to) {
-        take_entries(order.miss, order.counts.misses, from, to);
-    };
-    MissColumns::for_each_column(column, paths, out);
+    for (int k = 0; k < count; ++k)
+        order.hit[begins[bucket(hits[k])]++] = static_cast<uint16_t>(hits[k]);
+    order.hits = count;
 }
 
 void sort_hits(const PathColumns& paths, const HitColumns& hits, const Order& order) {
     uint32_t sorted[batch_size];
     const auto column = [&](auto* words) {
         using Word = std::remove_pointer_t<decltype(words)>;
-        const int count = order.counts.hits;
-        take_entries<Word>(order.hit, count, words, reinterpret_cast<Word*>(sorted));
-        std::memcpy(words, sorted, static_cast<size_t>(count) * sizeof(Word));
+        take_entries<Word>(order.hit, order.hits, words, reinterpret_cast<Word*>(sorted));
+        std::memcpy(words, sorted, static_cast<size_t>(order.hits) * sizeof(Word));
     };
     PathColumns::for_each_column(column, paths);
     HitColumns::for_each_column(column, hits);
@@ -115,11 +122,12 @@ SortedCounts sort_hits_from_misses(int count_in,
     const int groups = (count_in + lane_count - 1) / lane_count;
     if (tree_draws == nullptr && mixed_groups(count_in, columns.hits) * 4 <= groups)
         return pack_hits(count_in, columns);
+    int32_t hits[batch_size + lane_count];
+    const SortedCounts sorted = take_misses(count_in, columns, hits);
     Order order;
-    find_order(count_in, columns.hits, tree_draws, order);
-    take_misses(columns.paths, order, columns.misses);
+    find_order(hits, sorted.hits, columns.hits, tree_draws, order);
     sort_hits(columns.paths, columns.hits, order);
-    return order.counts;
+    return sorted;
 }
 
 }  // namespace OBSCURA_ISA
