@@ -206,7 +206,8 @@ Result<void> read_layers(const RenderArguments& arguments, RenderRequest& reques
     std::set<std::string> names;
     for (const Layer& layer : request.options.layers) {
         if (!names.insert(layer.name).second)
-            return conflict("--lpe", "two layers are called " + in_quotes(layer.name));
+            return conflict(arguments.layer.lpe.empty() ? layer_option_of(arguments) : "--lpe",
+                            "two layers are called " + in_quotes(layer.name));
     }
     return check_layers(request, layer_option_of(arguments));
 }

@@ -223,15 +223,21 @@ Result<void> write_part(const Making& making, const RenderResult& result) {
     return write_film_sums(file, head, result.film, [&](StateWriter& out) { sums.put(out); });
 }
 
-/// Whether a film so far has both half images that the denoiser needs, of as many samples.
-bool has_halves(const FilmKeeper& keeper, const RenderOptions& options) {
+/// Why a film so far lacks one of the half images that the denoiser needs, of as many samples each;
+/// "": it has both.
+std::string lack_of_halves(const FilmKeeper& keeper, const RenderOptions& options) {
     const FilmSums* const sums = keeper.sums();
-    if (sums == nullptr) return true;
+    if (sums == nullptr) return "";
     const size_t both = 2 * halves_run(options);
+    if (static_cast<size_t>(sums->target()) % both != 0) {
+        return fmt::format("with --spp {}, which is no multiple of {}, that takes all samples",
+                           sums->target(),
+                           sum_block_samples);
+    }
     const size_t least =
         options.adaptive ? static_cast<size_t>(options.adaptive->min_samples) : both;
-    const bool are_equal = static_cast<size_t>(sums->target()) % both == 0;
-    return are_equal && static_cast<size_t>(sums->min_samples()) >= least;
+    if (static_cast<size_t>(sums->min_samples()) >= least) return "";
+    return "there are too few samples to tell their noise";
 }
 
 /// Writes all outputs of a film that is finished, or of one of which pixels are missing.
@@ -240,12 +246,12 @@ Result<void> write_image(const Making& making, RenderedFilm&& film) {
     RenderRequest request = job.request;
     const bool is_unfinished = film.result.is_stopped;
     const bool has_faults = too_many_nonfinite(film.result.counters);
-    const bool lacks_halves = is_unfinished && !has_halves(*making.keeper, request.options);
+    const std::string lack =
+        is_unfinished ? lack_of_halves(*making.keeper, request.options) : std::string();
     if (is_unfinished) {
         film.result.film = making.keeper->finished_of(std::move(film.result.film));
-        if (request.denoise && lacks_halves) {
-            making.log.warn(request.scene.string(),
-                            "not denoised: there are too few samples to tell their noise");
+        if (request.denoise && !lack.empty()) {
+            making.log.warn(request.scene.string(), "not denoised: " + lack);
             leave_undenoised(request, film.result.film);
         }
     }
@@ -257,7 +263,7 @@ Result<void> write_image(const Making& making, RenderedFilm&& film) {
     const double exposure_ev = request.display.exposure_ev + camera_ev;
     if (is_unfinished) {
         mark_unfinished(*making.keeper, finished);
-        if (lacks_halves) finished.metadata.extra.push_back(unequal_halves());
+        if (!lack.empty()) finished.metadata.extra.push_back(unequal_halves());
     } else if (!has_faults) {
         mark_finished(job, finished);
     }

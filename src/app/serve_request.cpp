@@ -11,6 +11,7 @@
 #include "serve/guard.h"
 #include "serve/known_files.h"
 #include "serve/option_names.h"
+#include <algorithm>
 #include <filesystem>
 #include <system_error>
 
@@ -136,6 +137,11 @@ Result<void> choose_token(const ServeArguments& arguments, serve::ServerOptions&
     }
     if (arguments.token && arguments.token->empty())
         return conflict("--token", "the text is empty; --no-token is for none");
+    const auto is_refused = [](char c) { return c <= ' ' || c > '~' || c == '%'; };
+    if (arguments.token &&
+        std::any_of(arguments.token->begin(), arguments.token->end(), is_refused))
+        return conflict("--token",
+                        "expected letters, digits and signs of ASCII, without spaces and %");
     if (!arguments.no_token) server.token = arguments.token.value_or(serve::random_token());
     return {};
 }

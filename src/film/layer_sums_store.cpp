@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace obscura {
@@ -138,7 +139,8 @@ float LayerSums::statistic(SampleStatistic statistic, size_t pixel, double sampl
     const Luminance y = luminance_[pixel].total();
     const double mean = y.sum / samples;
     const double spread = std::max(y.squares / samples - mean * mean, 0.0);
-    return static_cast<float>(spread / (samples - 1));
+    constexpr double most = std::numeric_limits<float>::max();
+    return static_cast<float>(std::min(spread / (samples - 1), most));
 }
 
 }  // namespace obscura

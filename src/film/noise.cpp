@@ -13,13 +13,20 @@ namespace obscura {
 namespace {
 
 constexpr size_t noise_colors = 3;
+constexpr size_t alpha_channel = 3;
 
 /// Sums over pixels of their means and of the squared differences between their parts, the latter
 /// as variances of one sample.
 struct NoiseSum {
-    int count = 0;
     std::array<double, noise_colors> mean = {};
     std::array<double, noise_colors> variance = {};
+};
+
+/// Those of an image as it is seen over black, and over white: where alpha is noisy, colours may be
+/// smooth over one of them.
+struct NoiseSums {
+    int count = 0;
+    NoiseSum over_black, over_white;
 };
 
 /// What the squared difference of the two parts of a group's pixels is multiplied with: that of the
@@ -34,29 +41,44 @@ std::vector<double> variance_scales(const SampledImage& image, const PixelGroups
     return out;
 }
 
-/// Adds a pixel to the sum of its colour.
-void add_pixel(const SampledImage& image, size_t pixel, double scale, NoiseSum& sum) {
+/// Adds a pixel to the sums of its colour.
+void add_pixel(const SampledImage& image, size_t pixel, double scale, NoiseSums& sums) {
     const float* const after = image.pixels.data() + pixel * image.channels;
     const float* const before = image.before.data() + pixel * image.channels;
-    ++sum.count;
+    double behind = 0, change_behind = 0;  // what white adds
+    if (image.channels > alpha_channel) {
+        const auto alpha = static_cast<double>(after[alpha_channel]);
+        behind = image.white * (1 - alpha);
+        change_behind = image.white * (static_cast<double>(before[alpha_channel]) - alpha);
+    }
+    ++sums.count;
     for (size_t c = 0; c < noise_colors; ++c) {
         const size_t channel = std::min(c, image.channels - 1);  // one is grey
         const auto mean = static_cast<double>(after[channel]);
         const double change = mean - static_cast<double>(before[channel]);
-        sum.mean[c] += mean;
-        sum.variance[c] += change * change * scale;
+        const double change_over_white = change + change_behind;
+        sums.over_black.mean[c] += mean;
+        sums.over_black.variance[c] += change * change * scale;
+        sums.over_white.mean[c] += mean + behind;
+        sums.over_white.variance[c] += change_over_white * change_over_white * scale;
     }
 }
 
-/// The relative deviation that a sum stands for.
-float deviation_of(const NoiseSum& sum, double white) {
-    if (sum.count == 0) return 0;
-    const double darkest = darkest_error_white * white;
+double relative_variance(const NoiseSum& sum, int count, double darkest) {
     double out = 0;
     for (size_t c = 0; c < noise_colors; ++c) {
-        const double color = sum.mean[c] / sum.count;
-        out += sum.variance[c] / sum.count / (color * color + darkest * darkest);
+        const double color = sum.mean[c] / count;
+        out += sum.variance[c] / count / (color * color + darkest * darkest);
     }
+    return out;
+}
+
+/// The relative deviation that sums stand for.
+float deviation_of(const NoiseSums& sums, double white) {
+    if (sums.count == 0) return 0;
+    const double darkest = darkest_error_white * white;
+    const double out = std::max(relative_variance(sums.over_black, sums.count, darkest),
+                                relative_variance(sums.over_white, sums.count, darkest));
     return static_cast<float>(std::sqrt(out / noise_colors));
 }
 
@@ -69,7 +91,7 @@ std::array<float, 2> block_deviations(const SampledImage& image,
     constexpr int side = PixelGroups::block_side;
     const int x = static_cast<int>(column) * side;
     const int y = static_cast<int>(row) * side;
-    std::array<NoiseSum, 2> sums;
+    std::array<NoiseSums, 2> sums;
     for (int v = std::max(y - noise_margin, 0); v < std::min(y + side + noise_margin, image.height);
          ++v) {
         for (int u = std::max(x - noise_margin, 0);

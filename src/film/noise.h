@@ -33,7 +33,7 @@ struct PixelGroups {
 /// the latest samples of each.
 struct SampledImage {
     int width = 0, height = 0;
-    size_t channels = 0;  ///< of which the first three are colours
+    size_t channels = 0;  ///< three colours and alpha, with which they are multiplied; or one grey
     std::span<const float> pixels, before;
     std::span<const int> samples,
         samples_before;  ///< of each group of pixels; more than before, which is > 0
@@ -42,7 +42,8 @@ struct SampledImage {
 
 /// The relative standard deviation of one sample of the pixels of every group: the error of a
 /// pixel's mean of n samples is this over the square root of n. It is relative to the colour around
-/// the pixels, but at least to `darkest_error_white` of white, as an eye would judge it.
+/// the pixels, but at least to `darkest_error_white` of white, as an eye would judge it. With alpha
+/// it is that of the image over black or over white, whichever is more.
 ///
 /// The two parts of a pixel's samples are independent estimates of it. How far they differ says
 /// little for one pixel, so that the mean over its block and a margin around it stands for it, of

@@ -199,12 +199,20 @@ OBSCURA_INLINE LightTreeFork<F> light_tree_fork(const LightTreeView& tree,
     const LightBoundsValues<F> l = read_light_bounds<F, 0>(tree.nodes, node);
     const LightBoundsValues<F> r = read_light_bounds<F, 1>(tree.nodes, node);
     const F left = light_importance(l, at);
-    const F both = left + light_importance(r, at);
+    const F right = light_importance(r, at);
+    const F both = left + right;
     const F share = left / max(both, F(1e-37f));
-    // Rounding may make a large number one more than it is.
-    const I of_left = min(to_int(from_int<F>(place.randoms) * share), place.randoms);
+    const I middle = as_int(as_uint(r.sides) >> 1);
+    // A child that brings light has a number for each of its lights, however little that is beside
+    // the other's, which may be hidden. Rounding may make a large number one more than it is.
+    const I least = select(left > F(0.0f), I(middle - place.first), I(0));
+    const I rest = select(right > F(0.0f), I(place.end - middle), I(0));
+    const I shared = to_int(from_int<F>(place.randoms) * share);
+    const I of_left = select(right > F(0.0f),
+                             max(min(shared, I(place.randoms - rest)), least),
+                             select(left > F(0.0f), place.randoms, I(0)));
     const I of_right = select(both > F(0.0f), I(place.randoms - of_left), I(0));
-    return {of_left, of_right, as_int(as_uint(r.sides) >> 1)};
+    return {of_left, of_right, middle};
 }
 
 /// Goes on to a child where `goes`.

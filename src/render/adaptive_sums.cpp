@@ -3,6 +3,7 @@
 #include "render/adaptive_sums.h"
 
 #include "base/parallel.h"
+#include "render/pass_sums.h"
 #include "render/sample_plan.h"
 
 #include <algorithm>
@@ -49,12 +50,18 @@ AdaptiveSums::AdaptiveSums(const std::vector<Tile>& tiles,
       samples_before_(groups_.count(), 0),
       before_(film.pixels.size(), 0.0f) {
     static_assert(pass_tile_side % PixelGroups::block_side == 0);
+    for (size_t i = 0; i < sizes_.size(); ++i) {
+        if (sizes_[i] == 0) goals_[i] = 0;
+    }
 }
 
 double AdaptiveSums::fraction() const {
     if (is_over_) return 1;
-    const double part = static_cast<double>(tiles_done_) / static_cast<double>(tiles().size());
-    return std::min((passes_ + part) / static_cast<double>(levels_.size() - 1), 1.0);
+    const double part =
+        passes_ == 0 ? mean_samples() / levels_[1]
+                     : static_cast<double>(tiles_done_) / static_cast<double>(tiles().size());
+    constexpr double most = 0.99;  // there may be more passes than levels
+    return std::min((passes_ + part) / static_cast<double>(levels_.size() - 1), most);
 }
 
 /// Where the pixels of a tile lie, in the order of its pattern.
@@ -73,7 +80,7 @@ std::vector<AdaptiveSums::PixelPlace> AdaptiveSums::places(const Tile& tile,
     return out;
 }
 
-/// The groups of a tile's pixels.
+/// The groups of a tile's pixels. A block of one pixel, in a corner, has one.
 std::vector<size_t> AdaptiveSums::groups_in(const Tile& tile) const {
     constexpr int side = PixelGroups::block_side;
     const int x_0 = tile.x - (shape_.part_of ? shape_.part_of->x : 0);
@@ -82,7 +89,9 @@ std::vector<size_t> AdaptiveSums::groups_in(const Tile& tile) const {
     for (int y = y_0; y < y_0 + tile.height; y += side) {
         for (int x = x_0; x < x_0 + tile.width; x += side) {
             const size_t first = groups_.of(x, y);
-            out.insert(out.end(), {first, first + 1});
+            for (const size_t group : {first, first + 1}) {
+                if (sizes_[group] > 0) out.push_back(group);
+            }
         }
     }
     return out;
@@ -102,8 +111,22 @@ void AdaptiveSums::sample(const FilmWork& work) {
         work.progress({1.0, {first.x, first.y, first.width, first.height}, &work.film});
 }
 
-/// Samples the pixels that are short of their goals.
+/// Samples the pixels that are short of their goals. Where somebody looks at the film soon, the
+/// first pass is one of several over all of it, so that no part stays black for long.
 void AdaptiveSums::run_pass(const FilmWork& work) {
+    const FilmShare* const share = work.options.share;
+    if (passes_ == 0 && share != nullptr && share->shows_early) {
+        for (const int end : pass_ends(levels_[1], true)) {
+            limit_ = end;
+            sample_tiles(work);
+        }
+    }
+    limit_ = max_samples_;
+    sample_tiles(work);
+}
+
+/// The same of those that have fewer samples than limit_.
+void AdaptiveSums::sample_tiles(const FilmWork& work) {
     const std::atomic<bool>& stop = work.tile_work.stop;
     tiles_done_ = 0;
     parallel_for(tiles().size(), [&](size_t i) {
@@ -137,16 +160,17 @@ void AdaptiveSums::sample_tile(const FilmWork& work, SumsTile& tile) {
 /// none.
 bool AdaptiveSums::take_next_samples(const FilmWork& work, SumsTile& tile) {
     const std::vector<size_t> groups = groups_in(tile.tile);
+    const auto goal_of = [&](size_t group) { return std::min(goals_[group], limit_); };
     int first = max_samples_;
     for (const size_t group : groups) {
-        if (samples_[group] < goals_[group]) first = std::min(first, samples_[group]);
+        if (samples_[group] < goal_of(group)) first = std::min(first, samples_[group]);
     }
     const auto is_next = [&](size_t group) {
-        return samples_[group] == first && goals_[group] > first;
+        return samples_[group] == first && goal_of(group) > first;
     };
     int goal = first < levels_.front() ? levels_.front() : max_samples_;
     for (const size_t group : groups) {
-        if (is_next(group)) goal = std::min(goal, goals_[group]);
+        if (is_next(group)) goal = std::min(goal, goal_of(group));
     }
     std::vector<uint32_t> pixels;
     const std::vector<PixelPlace> all = places(tile.tile, thread_state(work).pattern);

@@ -20,7 +20,7 @@ public:
     AdaptiveSums(const std::vector<Tile>& tiles, const RenderOptions& options, const Film& film);
 
     int target() const override { return max_samples_; }
-    /// Of the passes that there may be.
+    /// Of the passes that are expected; 1 only when no pixel needs more.
     double fraction() const override;
     void sample(const FilmWork& work) override;
     void put(StateWriter& out) const override;
@@ -44,6 +44,7 @@ private:
     std::vector<PixelPlace> places(const Tile& tile, TilePattern& latest) const;
     std::vector<size_t> groups_in(const Tile& tile) const;
     void run_pass(const FilmWork& work);
+    void sample_tiles(const FilmWork& work);
     void sample_tile(const FilmWork& work, SumsTile& tile);
     bool take_next_samples(const FilmWork& work, SumsTile& tile);
     void note_pixels(const Film& film, const Tile& tile, TilePattern& latest);
@@ -64,6 +65,7 @@ private:
     std::atomic<int> passes_ = 0;         ///< that have ended
     std::atomic<size_t> tiles_done_ = 0;  ///< of the pass in progress
     std::atomic<bool> is_over_ = false;   ///< no pixel needs more
+    int limit_ = 0;                       ///< of samples, for the sweep in progress
     // By the number of a group of pixels. Those of a tile, which has whole groups, belong to its
     // lock; so do its pixels of the last.
     const PixelGroups groups_;

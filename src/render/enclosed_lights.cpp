@@ -57,16 +57,22 @@ struct Rays {
     }
 };
 
-/// Adds rays spread evenly over the sphere, or over a spot's cone.
+/// Height of the sphere; and of the cap of a spot's cone on the unit sphere.
+constexpr float all_around = 2;
+float height_of_cone(const PunctualLight& light) {
+    const bool cone = light.type == static_cast<int32_t>(PunctualType::spot);
+    return cone && light.spot_scale > 0
+               ? std::min(light.spot_on_axis / light.spot_scale, all_around)
+               : all_around;
+}
+
+/// Adds rays spread evenly over a cap of the unit sphere around a light's axis.
 ///
 /// Source  the golden spiral: equal steps of height, each turned by the golden angle
-void add_directions(const PunctualLight& light, Rays& rays) {
+void add_directions(const PunctualLight& light, float height, Rays& rays) {
     const Vec3f place{light.position[0], light.position[1], light.position[2]};
     const Vec3f axis{light.direction[0], light.direction[1], light.direction[2]};
     const Frame<float> frame = frame_around(axis);
-    const bool cone = light.type == static_cast<int32_t>(PunctualType::spot);
-    const float height =  // of the cone's cap on the unit sphere
-        cone && light.spot_scale > 0 ? std::min(light.spot_on_axis / light.spot_scale, 2.0f) : 2;
     for (int i = 0; i < directions; ++i) {
         const float fraction = (static_cast<float>(i) + 0.5f) / static_cast<float>(directions);
         const float z = 1 - fraction * height;
@@ -130,11 +136,15 @@ std::vector<EnclosedLight> find_enclosed_lights(const PreparedScene& prepared, c
     for (size_t i = 0; i < std::min(scene.lights.size(), max_lights); ++i) {
         const PunctualLight& light = scene.lights[i];
         if (light.type == static_cast<int32_t>(PunctualType::directional)) continue;
-        Rays rays;
-        add_directions(light, rays);
-        rays.intersect(prepared.accel(), {.fixed_alpha = true, .passes = shadow_rays_pass});
-        const std::optional<int32_t> node = enclosing_node(scene, rays);
-        if (!node || sees_inside(prepared.accel(), rays, eye)) continue;
+        // A spot may light nothing but a floor, which does not enclose it.
+        Rays cone, rays;
+        add_directions(light, height_of_cone(light), cone);
+        add_directions(light, all_around, rays);
+        for (Rays* const some : {&cone, &rays})
+            some->intersect(prepared.accel(), {.fixed_alpha = true, .passes = shadow_rays_pass});
+        const std::optional<int32_t> node = enclosing_node(scene, cone);
+        if (!node || enclosing_node(scene, rays) != node) continue;
+        if (sees_inside(prepared.accel(), rays, eye)) continue;
         out.push_back({i, *node});
     }
     return out;

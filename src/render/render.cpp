@@ -296,7 +296,9 @@ void leave_out_filled(const std::vector<FilmArea>& filled,
 void render_tiles(const FilmWork& work, const std::vector<FilmArea>& filled) {
     const RenderOptions& options = work.options;
     const TileWork& tile_work = work.tile_work;
-    std::vector<Tile> tiles = tiles_of(options, tile_side(options));
+    // Tiles that are kept in a file fit those of any later run.
+    const int side = options.share != nullptr ? pass_tile_side : tile_side(options);
+    std::vector<Tile> tiles = tiles_of(options, side);
     const size_t all = tiles.size();
     leave_out_filled(filled, work.film, tiles);
     const bool aov = is_aov(options.integrator);

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <netinet/in.h>
 #include <optional>
+#include <poll.h>
 #include <sys/socket.h>
 #include <system_error>
 
@@ -75,7 +76,23 @@ void note_request() {
 }
 
 void end_connection() {
-    if (own != nullptr) close(own->socket);
+    if (own == nullptr) return;
+    const Socket& socket = own->socket;
+    if (client_of(socket.descriptor, socket.port) != socket.client) return;
+    ::shutdown(socket.descriptor, SHUT_WR);
+    // What the client is still sending is taken: closed at once, the connection would be reset, and
+    // the answer lost.
+    constexpr std::chrono::seconds longest(2);
+    const Clock::time_point end = Clock::now() + longest;
+    char bytes[1 << 16];
+    pollfd waiting = {socket.descriptor, POLLIN, 0};
+    while (Clock::now() < end) {
+        constexpr int slice_ms = 100;
+        if (::poll(&waiting, 1, slice_ms) > 0 &&
+            ::recv(socket.descriptor, bytes, sizeof bytes, MSG_DONTWAIT) <= 0)
+            break;
+    }
+    close(socket);
 }
 
 std::function<bool()> client_is_gone() {

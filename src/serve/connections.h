@@ -20,7 +20,8 @@ namespace obscura::serve {
 /// To be called when a whole request has come, by the thread that answers it.
 void note_request();
 
-/// Closes the connection of this thread: the client gets what was sent, and nothing more is read.
+/// Closes the connection of this thread: the client gets what was sent, and nothing that comes
+/// after is answered. Waits up to two seconds for what the client is still sending.
 void end_connection();
 
 /// Whether the client whose request this thread answers has gone; any thread may ask until the

@@ -6,6 +6,7 @@
 #include <arpa/inet.h>
 #include <array>
 #include <random>
+#include <strings.h>
 
 namespace obscura::serve {
 
@@ -74,7 +75,7 @@ Result<void> Guard::check_token(const Sender& sender) const {
     if (token_.empty()) return {};
     constexpr std::string_view scheme = "Bearer ";
     std::string_view given = sender.query_token;
-    if (sender.authorization.starts_with(scheme))
+    if (::strncasecmp(sender.authorization.c_str(), scheme.data(), scheme.size()) == 0)
         given = std::string_view(sender.authorization).substr(scheme.size());
     if (are_equal(given, token_)) return {};
     return fail(ExitCode::refused,

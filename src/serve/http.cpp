@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <exception>
 #include <new>
+#include <strings.h>
 
 namespace obscura::serve {
 
@@ -20,6 +21,11 @@ namespace {
 constexpr size_t largest_json = 4U << 20U;
 /// Fields of a form: no request knows as many.
 constexpr size_t max_fields = 256;
+/// What a form takes beside the file in it.
+constexpr uint64_t form_bytes = 1U << 20U;
+
+/// Whether the head of the request that this thread answers was understood.
+thread_local bool is_routed = false;
 
 tl::unexpected<Error> too_large(const std::string& where, uint64_t bytes) {
     return fail(ExitCode::refused,
@@ -90,14 +96,25 @@ void ignore_range(const httplib::Request& request) {
     const_cast<httplib::Ranges&>(request.ranges).clear();
 }
 
+/// What Content-Length says: digits, or nothing.
+uint64_t length_of(const httplib::Request& request) {
+    return std::strtoull(request.get_header_value("Content-Length").c_str(), nullptr, 10);
+}
+
 /// Whether two programs could read the request differently, one of them before this server: where
 /// its body ends, or whom it is for (RFC 9112, 3.2 and 6.3).
 bool is_ambiguous(const httplib::Request& request) {
     const auto count = [&](const char* name) { return request.get_header_value_count(name); };
     const std::string length = request.get_header_value("Content-Length");
     const bool is_number = length.find_first_not_of("0123456789") == std::string::npos;
+    const std::string coding = request.get_header_value("Transfer-Encoding");
+    const bool is_known = coding.empty() || ::strcasecmp(coding.c_str(), "chunked") == 0;
     return count("Host") > 1 || count("Content-Length") + count("Transfer-Encoding") > 1 ||
-           !is_number;
+           !is_number || !is_known;
+}
+
+bool has_body(const httplib::Request& request) {
+    return request.has_header("Transfer-Encoding") || length_of(request) > 0;
 }
 
 /// The connection ends after the answer: what else comes on it cannot be told from a request.
@@ -137,24 +154,23 @@ Body::Body(const httplib::Request& request,
     : request_(request),
       reader_(reader),
       max_bytes_(max_bytes),
-      is_read_(!request.has_header("Content-Length") && !request.has_header("Transfer-Encoding")) {}
+      is_read_(!request.has_header("Content-Length") && !request.has_header("Transfer-Encoding")),
+      is_whole_(is_read_) {}
 
 Result<void> Body::read(const ByteSink& sink) {
     if (request_.is_multipart_form_data())
         return fail(ExitCode::bad_data, "E-SERVE-BODY", "body", "expected the data, not a form");
     if (is_read_) return {};
     // Said before more comes than the library takes, which would be an error without a reason.
-    const std::string length = request_.get_header_value("Content-Length");  // digits, or nothing
-    if (std::strtoull(length.c_str(), nullptr, 10) > max_bytes_)
-        return too_large("body", max_bytes_);
+    if (length_of(request_) > max_bytes_) return too_large("body", max_bytes_);
     is_read_ = true;
     Result<void> done;
-    const bool is_whole = reader_([&](const char* bytes, size_t count) {
+    is_whole_ = reader_([&](const char* bytes, size_t count) {
         if (done) done = sink(std::as_bytes(std::span(bytes, count)));
         return true;
     });
     if (!done) return done;
-    if (!is_whole) {
+    if (!is_whole_) {
         return fail(
             ExitCode::bad_data, "E-SERVE-BODY", "body", "the request ends before all of it came");
     }
@@ -165,16 +181,15 @@ void Body::drain() {
     if (is_read_) return;
     is_read_ = true;
     const auto forget = [](const char* /*bytes*/, size_t /*count*/) { return true; };
-    if (request_.is_multipart_form_data()) {  // for which the library has another reader
-        reader_([](const httplib::MultipartFormData& /*part*/) { return true; }, forget);
-    } else {
-        reader_(forget);
-    }
+    is_whole_ = request_.is_multipart_form_data()  // for which the library has another reader
+                    ? reader_([](const auto& /*part*/) { return true; }, forget)
+                    : reader_(forget);
 }
 
 Result<nlohmann::json> Body::json() {
     const std::string type = request_.get_header_value("Content-Type");
-    if (type.substr(0, type.find_first_of("; \t")) != "application/json") {
+    const std::string essence = type.substr(0, type.find_first_of("; \t"));
+    if (::strcasecmp(essence.c_str(), "application/json") != 0) {
         return fail(ExitCode::refused,
                     "E-SERVE-TYPE",
                     "Content-Type",
@@ -196,17 +211,19 @@ Result<std::map<std::string, std::string>> Body::form(uint64_t max_bytes) {
     if (!request_.is_multipart_form_data())
         return fail(ExitCode::bad_data, "E-SERVE-BODY", "form", "expected multipart/form-data");
     if (is_read_) return out;
+    if (length_of(request_) > max_bytes_ + form_bytes) return too_large("form", max_bytes_);
     is_read_ = true;
+    bool has_too_many = false;
     std::string* field = nullptr;
     std::string repeated;
     uint64_t bytes = 0;
-    const bool is_whole = reader_(
+    is_whole_ = reader_(
         [&](const httplib::MultipartFormData& part) {
-            is_cut_ = out.size() == max_fields;
+            has_too_many = out.size() == max_fields;
             const auto [place, is_new] = out.try_emplace(part.name);
             if (!is_new) repeated = part.name;
             field = &place->second;
-            return !is_cut_;
+            return !has_too_many;
         },
         [&](const char* data, size_t count) {
             bytes += count;
@@ -214,7 +231,7 @@ Result<std::map<std::string, std::string>> Body::form(uint64_t max_bytes) {
             return true;
         });
     if (bytes > max_bytes) return too_large("form", max_bytes);
-    if (is_cut_) {
+    if (has_too_many) {
         return fail(ExitCode::refused,
                     "E-SERVE-SIZE",
                     "form",
@@ -222,7 +239,7 @@ Result<std::map<std::string, std::string>> Body::form(uint64_t max_bytes) {
     }
     if (!repeated.empty())
         return fail(ExitCode::bad_data, "E-SERVE-BODY", repeated, "the form has this field twice");
-    if (is_whole && !out.empty()) return out;
+    if (is_whole_ && !out.empty()) return out;
     return fail(ExitCode::bad_data,
                 "E-SERVE-BODY",
                 "form",
@@ -235,6 +252,11 @@ Result<void> Routes::admit(const httplib::Request& request) const {
     const Sender sender = sender_of(request);
     if (auto own = guard_.check_site(sender); !own) return own;
     return guard_.check_token(sender);
+}
+
+Routes::Routes(httplib::Server& server, const Guard& guard, uint64_t max_body)
+    : server_(server), guard_(guard), max_body_(max_body) {
+    server.set_payload_max_length(max_body + form_bytes);
 }
 
 void Routes::get_openly(const std::string& pattern, const Get& get) {
@@ -262,7 +284,7 @@ httplib::Server::HandlerWithContentReader Routes::with_body(const WithBody& work
             admitted ? work(request, body) : Result<Answer>(fail(admitted.error()));
         body.drain();
         send(std::move(answer), response);
-        if (body.is_cut()) end_after(response);
+        if (!body.is_whole()) end_after(response);
     };
 }
 
@@ -292,6 +314,7 @@ void Routes::refuse_the_rest() {
     server_.Patch(".*", with_body(nothing, send));
     server_.set_pre_routing_handler([](const httplib::Request& request,
                                        httplib::Response& response) {
+        is_routed = true;
         ignore_range(request);
         if (is_ambiguous(request)) {
             constexpr int bad_request = 400;
@@ -302,15 +325,21 @@ void Routes::refuse_the_rest() {
         constexpr std::array<std::string_view, 6> known = {
             "GET", "HEAD", "POST", "PUT", "PATCH", "DELETE"};
         const bool is_known = std::find(known.begin(), known.end(), request.method) != known.end();
+        constexpr std::array<std::string_view, 4> with_body = {"POST", "PUT", "PATCH", "DELETE"};
+        const bool reads_body =
+            std::find(with_body.begin(), with_body.end(), request.method) != with_body.end();
+        if (!reads_body && has_body(request)) end_after(response);
         if (is_known) return httplib::Server::HandlerResponse::Unhandled;
         constexpr int not_allowed = 405;
         send(json_result(error_answer(error_of_status(not_allowed)), not_allowed), response);
         return httplib::Server::HandlerResponse::Handled;
     });
     server_.set_logger([](const httplib::Request& /*request*/, const httplib::Response& response) {
+        is_routed = false;
         if (ends_after(response)) end_connection();
     });
     server_.set_error_handler([](const httplib::Request& /*request*/, httplib::Response& response) {
+        if (!is_routed) end_after(response);  // its head was not understood: where does it end?
         if (!response.body.empty() || response.content_length_ > 0) return;
         send(json_result(error_answer(error_of_status(response.status)), response.status),
              response);

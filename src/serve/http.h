@@ -36,8 +36,7 @@ struct Answer {
 
 Answer json_result(const Json& json, int status = 200);
 
-/// The body of a request. What nobody reads is read and thrown away in the end: else it would be
-/// taken for the next request.
+/// The body of a request. What nobody reads is read and thrown away in the end.
 class Body {
 public:
     /// In      max_bytes: of data that is no JSON
@@ -56,15 +55,15 @@ public:
     /// Errors  77 E-SERVE-SIZE; 65 E-SERVE-BODY
     Result<std::map<std::string, std::string>> form(uint64_t max_bytes);
     void drain();
-    /// Whether the rest was left unread, so that nothing more can be read from the connection.
-    bool is_cut() const { return is_cut_; }
+    /// Whether nothing of it is left: else the rest would be taken for the next request.
+    bool is_whole() const { return is_whole_; }
 
 private:
     const httplib::Request& request_;
     const httplib::ContentReader& reader_;
     const uint64_t max_bytes_;
     bool is_read_;
-    bool is_cut_ = false;
+    bool is_whole_;
 };
 
 /// Makes routes: each is called for those whom the guard lets in.
@@ -73,11 +72,8 @@ public:
     using Get = std::function<Result<Answer>(const httplib::Request&)>;
     using WithBody = std::function<Result<Answer>(const httplib::Request&, Body&)>;
 
-    /// In      max_body: bytes of a request's body
-    Routes(httplib::Server& server, const Guard& guard, uint64_t max_body)
-        : server_(server), guard_(guard), max_body_(max_body) {
-        server.set_payload_max_length(max_body);
-    }
+    /// In      max_body: bytes of a request's body, or of the file in a form
+    Routes(httplib::Server& server, const Guard& guard, uint64_t max_body);
 
     /// Open to all who name this server: without the token.
     void get_openly(const std::string& pattern, const Get& get);

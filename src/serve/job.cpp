@@ -208,7 +208,8 @@ std::string JobEvents::next() {
         has_begun_ = true;
         const Job::News news = job_->wait_for_news(told_, std::chrono::milliseconds(0));
         told_ = {std::min(told_.lines, news.lines), news.state};
-        out = "retry: 2000\n" + state_event(news);
+        // The state of a job that has ended comes last: then clients leave.
+        out = "retry: 2000\n" + (is_ended(news.state) ? "" : state_event(news));
     } else {
         const Job::News news = job_->wait_for_news(told_, slice);
         out = image_events(news.lines);

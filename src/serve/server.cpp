@@ -129,7 +129,7 @@ struct Server::Impl {
           guard(options.address, options.token),
           service(options.service),
           jobs(options.jobs, service),
-          routes(http, guard, options.service.max_upload + (1U << 20U)) {
+          routes(http, guard, options.service.max_upload) {
         constexpr time_t read_s = 10, write_s = 30, keep_alive_s = 30;
         http.new_task_queue = [this] {
             return new ConnectionThreads(port, max_connections, is_ending);
@@ -345,7 +345,7 @@ std::string Server::url(const std::string& file) const {
     const std::string host = is_any ? "localhost" : host_in_url(options.address);
     std::string out = "http://" + host + ":" + std::to_string(impl_->port) + "/";
     std::string fragment;
-    if (!options.token.empty()) fragment = "token=" + options.token;
+    if (!options.token.empty()) fragment = "token=" + percent_encoded(options.token);
     if (!file.empty()) {
         fragment += fragment.empty() ? "" : "&";
         fragment += "file=" + percent_encoded(file);

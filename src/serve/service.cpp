@@ -126,7 +126,7 @@ std::shared_ptr<Viewer> Service::add(Open&& open, std::string& id) {
         closed = std::move(idlest->second.viewer);
         views_.erase(idlest);
     }
-    id = "v" + std::to_string(++opened_);
+    id = "v" + std::to_string(++opened_) + "-" + run_;
     views_.emplace(id, std::move(open));
     return closed;
 }

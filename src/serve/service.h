@@ -4,6 +4,7 @@
 
 #include "base/json/json.h"
 
+#include "serve/guard.h"
 #include "serve/known_files.h"
 #include "serve/viewer.h"
 #include <map>
@@ -79,6 +80,8 @@ private:
     mutable std::mutex mutex_;  ///< of what follows
     std::map<std::string, Open> views_;
     int opened_ = 0;
+    /// In the ids of views, so that those of a server before this one are unknown to it.
+    const std::string run_ = random_token().substr(0, 6);
 };
 
 }  // namespace obscura::serve

@@ -54,7 +54,8 @@ Result<RenderOptions> sampling_of(const ExrLayers& layers, const std::string& wh
         return bad_file("E-DENOISE-HALVES",
                         where,
                         "its rendering was stopped when there were too few samples to tell their "
-                        "noise; render longer, or carry on from a checkpoint");
+                        "noise, or its --spp is no multiple of 16 and then takes all samples; "
+                        "render longer, or carry on from a checkpoint");
     }
     const bool is_even = !out.adaptive || (*least % 2 == 0 && *most % 2 == 0);
     if (is_even && *samples >= 2) return out;

@@ -20,6 +20,7 @@ constexpr const char* value_id = "E-VIEWS-VALUE";
 constexpr uint64_t largest_file = 256U << 20;
 constexpr double degree = pi_d / 180;
 constexpr uint64_t max_side_px = 65536;
+constexpr int64_t max_pixels = int64_t{1} << 29;
 
 constexpr std::array<std::string_view, 28> known_keys = {"name",
                                                          "camera",
@@ -85,6 +86,8 @@ std::optional<std::array<int, 2>> read_size(const JsonReader& reader) {
             reader.fault(key, value_id, "expected a whole number from 1 to 65536");
         }
     }
+    if (int64_t{1} * out[0] * out[1] > max_pixels)
+        reader.fault("height", value_id, "expected at most 536870912 pixels in all");
     return out;
 }
 

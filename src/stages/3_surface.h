@@ -139,43 +139,61 @@ OBSCURA_INLINE Mask glow_on_both_sides(LanesI flags) {
            (!has_bits<Lanes>(flags, material_glows_in_front));
 }
 
+/// The emission of a hit surface whose texture is found, but not read yet.
+struct FoundEmission {
+    Vec3<Lanes> factor;  ///< 0 where nothing glows
+    Mask emits, by_bsdf;
+    TextureFilter filter;
+    FoundSlot slot;  ///< where any lane emits
+};
+
+/// Finds the surface's emission, and asks for the memory of its texture.
+OBSCURA_INLINE FoundEmission find_emission(const SceneView& scene,
+                                           const HitGeometry& g,
+                                           const EmissionContext& context) {
+    FoundEmission found;
+    found.by_bsdf = context.by_bsdf;
+    found.factor = g.material.vector<&Material::emission>();
+    const LanesI flags = g.material.integer<&Material::flags>();
+    found.emits =
+        (max_component(found.factor) > Lanes(0.0f)) &
+        (context.front | has_bits<Lanes>(flags, material_unlit) | glow_on_both_sides(flags));
+    found.factor = select(found.emits, found.factor, splat3(Lanes(0.0f)));
+    if (none(found.emits)) return found;
+    // Where light sampling may find the same light, both strategies must read the same texels.
+    found.filter = context.filter;
+    found.filter.footprint = select(context.by_bsdf, Lanes(0.0f), context.filter.footprint);
+    found.slot = find_slot<&Material::emissive_texture>(scene, g, g.material, found.filter, {});
+    return found;
+}
+
 /// Reads the surface's emission, and its index in the light table.
 ///
-/// In   s.unlit; s.any_layers, s.layers
+/// In   s.any_layers, s.layers
 OBSCURA_INLINE void read_emission(const SceneView& scene,
                                   const HitLanes& hit,
                                   const HitGeometry& g,
-                                  const EmissionContext& context,
+                                  const FoundEmission& found,
                                   ShadingPoint& s) {
-    s.emission = g.material.vector<&Material::emission>();
-    const LanesI flags = g.material.integer<&Material::flags>();
-    const Mask emits = (max_component(s.emission) > Lanes(0.0f)) &
-                       (context.front | s.unlit | glow_on_both_sides(flags));
-    s.emission = select(emits, s.emission, splat3(Lanes(0.0f)));
+    s.emission = found.factor;
     s.light = LanesI(-1);
-    if (any(emits)) {
-        // Where light sampling may find the same light, both strategies must read the same texels.
-        TextureFilter sharp = context.filter;
-        sharp.footprint = select(context.by_bsdf, Lanes(0.0f), context.filter.footprint);
-        const FoundSlot slot =
-            find_slot<&Material::emissive_texture>(scene, g, g.material, sharp, {});
-        if (any(slot.used & emits)) {
-            s.emission =
-                select(slot.used, s.emission * read_slot(scene, g, slot, sharp).rgb, s.emission);
-        }
-        const LanesI base = g.primitive.integer<&Primitive::light_base>();
-        LanesI light = base + hit.triangle;
-        const Mask instanced = hit.instance >= LanesI(0);
-        if (any(instanced)) {
-            const LanesI own = instance_record(scene, hit).integer<&Instance::light_base>();
-            light = light + select(instanced, own, LanesI(0));
-        }
-        s.light = select(emits & (base >= LanesI(0)), light, LanesI(-1));
-        if (s.any_layers) {
-            // Where light sampling may find the same light, both use sampled_coat_transmittance.
-            const Mask coated = s.layers.layered & !(context.by_bsdf & (s.light >= LanesI(0)));
-            s.emission = select(coated, s.emission * s.layers.weights.below_coat, s.emission);
-        }
+    if (none(found.emits)) return;
+    if (any(found.slot.used & found.emits)) {
+        const Rgba<Lanes> texel = read_slot(scene, g, found.slot, found.filter);
+        s.emission = select(found.slot.used, s.emission * texel.rgb, s.emission);
+    }
+    const LanesI base = g.primitive.integer<&Primitive::light_base>();
+    LanesI light = base + hit.triangle;
+    const Mask instanced = hit.instance >= LanesI(0);
+    if (any(instanced)) {
+        const LanesI own = instance_record(scene, hit).integer<&Instance::light_base>();
+        light = light + select(instanced, own, LanesI(0));
+    }
+    s.light = select(found.emits & (base >= LanesI(0)), light, LanesI(-1));
+    if (s.any_layers) {
+        // Where light sampling may find the same light, both use sampled_coat_transmittance.
+        const Mask coated = s.layers.layered & !(found.by_bsdf & (s.light >= LanesI(0)));
+        s.emission = select(coated, s.emission * s.layers.weights.below_coat, s.emission);
     }
 }
 
@@ -207,11 +225,12 @@ OBSCURA_INLINE ShadingPoint shading_point(const SceneView& scene,
     const TextureFilter& filter = interaction.filter;
     const CommonTexel common = find_common_texel(scene, g, filter);
     const FoundSlots slots = find_slots(scene, g, filter, common);
+    const Mask front = interaction.cos_front >= Lanes(0.0f);
+    const FoundEmission emission = find_emission(scene, g, {filter, front, path.pdf > Lanes(0.0f)});
 
     ShadingPoint s;
     s.time = hit.time;
     const LanesI flags = g.material.integer<&Material::flags>();
-    const Mask front = interaction.cos_front >= Lanes(0.0f);
     s.ng = interaction.ng;
     s.start = g.position + s.ng * g.offset;
     s.light_start = s.start + select(front, g.smooth_shift, splat3(Lanes(0.0f)));
@@ -235,8 +254,7 @@ OBSCURA_INLINE ShadingPoint shading_point(const SceneView& scene,
     }
     if (scene.occludes) s.occlusion = read_occlusion(scene, g, filter);
     s.unlit = has_bits<Lanes>(flags, material_unlit);
-
-    read_emission(scene, hit, g, {filter, front, path.pdf > Lanes(0.0f)}, s);
+    read_emission(scene, hit, g, emission, s);
     return s;
 }
 

@@ -352,6 +352,27 @@ TEST_F(Serve, RequestsThatCanBeReadInTwoWaysAreRefused) {
     });
 }
 
+TEST_F(Serve, ABodyIsNeverTakenForARequest) {
+    serve({}, [&](ServerClient& client) {
+        const std::string inner = "GET /icon.svg HTTP/1.1\r\nHost: localhost\r\n\r\n";
+        const std::string length = "Content-Length: " + std::to_string(inner.size()) + "\r\n";
+        const std::string host = " HTTP/1.1\r\nHost: localhost\r\n";
+        const std::string form = "Content-Type: multipart/form-data\r\n";
+        for (const std::string& head : {"GET /page.js" + host + length,
+                                        "HEAD /page.js" + host + length,
+                                        "GET /nothing" + host + length,
+                                        "OPTIONS /" + host + length,
+                                        "POST /render" + host + form + length,
+                                        "POST /api/views" + host + "Transfer-Encoding: gzip\r\n",
+                                        "GET /" + std::string(20000, 'x') + host + length}) {
+            const std::string answer = raw_answer(client.port, head + "\r\n" + inner);
+            EXPECT_THAT(answer, HasSubstr("HTTP/1.1 ")) << head.substr(0, 60);
+            EXPECT_THAT(answer, testing::Not(HasSubstr("image/svg"))) << head.substr(0, 60);
+        }
+        EXPECT_THAT(raw_answer(client.port, inner), HasSubstr("image/svg"));
+    });
+}
+
 TEST_F(Serve, ViewShowsOneModel) {
     std::filesystem::create_directories(folder_ / "models");
     folder_.write("models/two words.gltf", gltf_text(triangle_scene()));

@@ -11,7 +11,7 @@
 namespace obscura {
 namespace {
 
-/// A grey image whose pixels all have the same numbers of samples.
+/// An opaque grey image whose pixels all have the same numbers of samples.
 struct GreyImage {
     GreyImage(int edge, float value, int count, int count_before)
         : side(edge),
@@ -21,7 +21,11 @@ struct GreyImage {
           samples(groups.count(), count),
           samples_before(groups.count(), count_before) {}
 
-    SampledImage view(double white = 1) const {
+    SampledImage view(double white = 1) {
+        for (std::vector<float>* const image : {&pixels, &before}) {
+            for (size_t i = 3; i < image->size(); i += 4)
+                (*image)[i] = 1;
+        }
         return {side, side, 4, pixels, before, samples, samples_before, white};
     }
     void set(std::vector<float>& image, size_t pixel, float value) {
@@ -54,6 +58,20 @@ TEST(Noise, IsRelativeToWhatIsDisplayedAsWhite) {
     bright.before.assign(bright.before.size(), 2.0f);
     EXPECT_NEAR(sample_deviations(image.view(1e-3))[0], sample_deviations(bright.view())[0], 1e-4);
     EXPECT_LT(sample_deviations(image.view())[0], 0.1f) << "nearly black";
+}
+
+TEST(Noise, AlphaCountsAsItIsSeenOverWhite) {
+    for (const double white : {1.0, 3.0}) {
+        GreyImage image(8, 0.0f, 48, 16);
+        const SampledImage seen = image.view(white);
+        for (size_t i = 3; i < image.pixels.size(); i += 4) {
+            image.pixels[i] = 0.5f;
+            image.before[i] = 0.6f;
+        }
+        const double expected = 0.1 * std::sqrt(48.0 * 16 / 32) / std::sqrt(0.25 + 0.01);
+        for (const float deviation : sample_deviations(seen))
+            EXPECT_NEAR(deviation, expected, 1e-5);
+    }
 }
 
 TEST(Noise, APixelWithoutNeighboursIsJudgedByItself) {

@@ -81,7 +81,7 @@ inline constexpr std::array<std::string_view, 2> not_yet_mended{
     "surface/texture_record.h: `constexpr uint32_t pack_sampler`"};
 
 /// Headers of the operating system and the C library: every room may include them.
-inline constexpr std::array<std::string_view, 19> system_headers{"dirent.h",
+inline constexpr std::array<std::string_view, 20> system_headers{"dirent.h",
                                                                  "dlfcn.h",
                                                                  "errno.h",
                                                                  "fnmatch.h",
@@ -96,6 +96,7 @@ inline constexpr std::array<std::string_view, 19> system_headers{"dirent.h",
                                                                  "signal.h",
                                                                  "spawn.h",
                                                                  "stdlib.h",
+                                                                 "strings.h",
                                                                  "sys/",
                                                                  "termios.h",
                                                                  "time.h",

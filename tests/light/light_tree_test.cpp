@@ -121,6 +121,21 @@ TEST(LightTree, ProbabilitiesSumToOne) {
     }
 }
 
+TEST(LightTree, NoLightIsLostBesideAVeryStrongOne) {
+    for (const float strength : {1e3f, 1e9f, 1e15f, 1e30f}) {
+        for (const size_t strong : {0U, 17U, 299U}) {
+            auto lights = random_lights(300, 11);
+            for (BoundedLight& light : lights)
+                light.bounds.sides = light.bounds.cos_normals > 0 ? 1 : light.bounds.sides;
+            lights[strong].bounds.intensity *= strength;
+            const LightTree tree = build_light_tree(lights, lights.size());
+            const LitPoint<float> at{{0.3f, -0.2f, 0.1f}, no_normal};
+            for (size_t i = 0; i < lights.size(); ++i)
+                EXPECT_GE(probability(view_of(tree), at, i), 0x1p-30) << i << " of " << strength;
+        }
+    }
+}
+
 /// The first of the random numbers, in units of four, that leads to a leaf from this one on.
 int32_t first_number(const LightTreeView& view, const LitPoint<float>& at, int32_t leaf) {
     int32_t low = 0;

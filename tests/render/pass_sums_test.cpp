@@ -63,7 +63,8 @@ protected:
         const auto progress = [&](const FinishedTile& tile) {
             if (tile.done > stop_at) stop = true;
         };
-        const Camera camera = look_at({0, 1.5f, 5}, {0, 0.9f, 0}, 0.8f, 71, 45);
+        const Camera camera =
+            look_at({0, 1.5f, 5}, {0, 0.9f, 0}, 0.8f, options.width, options.height);
         return render(scene_, camera, options, progress, stop).value();
     }
     /// Renders in passes, after `begin`; they stay in `sums_`.
@@ -226,6 +227,36 @@ TEST_F(PassesOfAFilm, GoOnToTheSameBitsWhereTheyDecideOverSamples) {
     });
     EXPECT_EQ(again.counters.paths, 0u) << "nothing is left to be sampled";
     expect_same(whole.film, again.film);
+}
+
+/// A block of pixels in the corner may be a single one: then a group of pixels has none.
+TEST_F(PassesOfAFilm, GoOnToTheSameBitsWhereTheCornerIsOnePixel) {
+    for (const auto& [width, height] : {std::pair{9, 9}, std::pair{17, 9}, std::pair{1, 1}}) {
+        RenderOptions asked = options(512);
+        asked.width = width;
+        asked.height = height;
+        asked.adaptive = AdaptiveOptions{.noise_target = 0.01, .min_samples = 128};
+        const RenderResult whole = render_with(asked);
+        ASSERT_GE(whole.adaptive->least, 128);
+        const auto stopped = render_passes_of(asked, nothing, 0.0);
+        EXPECT_LE(stopped.adaptive->total, whole.adaptive->total);
+        const std::string kept = bytes();
+        const RenderResult resumed = render_passes_of(asked, [&](const PassFilm& film) {
+            StateReader reader(std::as_bytes(std::span(kept)));
+            EXPECT_TRUE(film.sums->take(film.work, reader));
+        });
+        expect_same(whole.film, resumed.film);
+        EXPECT_EQ(resumed.adaptive->total, whole.adaptive->total);
+    }
+}
+
+TEST_F(PassesOfAFilm, AreNotOverBeforeItIsKnownThatNoneFollows) {
+    RenderOptions asked = options(24);
+    asked.adaptive = AdaptiveOptions{.noise_target = 0.02, .min_samples = 16};
+    ASSERT_GT(render_with(asked).adaptive->passes, 2) << "more than there are levels";
+    const RenderResult stopped = render_passes_of(asked, nothing, 0.98);
+    EXPECT_TRUE(stopped.is_stopped);
+    EXPECT_LT(sums_->fraction(), 1);
 }
 
 TEST_F(PassesOfAFilm, OfSomeSamplesAddUpToTheBitsOfAll) {

@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include "support/scene_builder.h"
 #include <map>
+#include <mutex>
+#include <set>
 #include <utility>
 
 namespace obscura::test {
@@ -46,6 +49,33 @@ TEST(Tiles, CoverAnAreaOnceSquareBySquare) {
         EXPECT_TRUE(place.first >= -3 && place.first < 200 && place.second >= 2 &&
                     place.second < 79);
     }
+}
+
+TEST(Tiles, OfAFilmThatIsKeptDoNotDependOnTheirOption) {
+    SceneBuilder builder;
+    builder.quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}, builder.material({}));
+    RenderOptions options;
+    options.width = 150;
+    options.height = 90;
+    options.integrator = Integrator::normal;
+    const Camera camera = look_at({0, 2, 3}, {0, 0, 0}, 0.8f, options.width, options.height);
+    Log log(Verbosity::quiet);
+    const PreparedScene scene =
+        PreparedScene::create(builder.take(), {}, Isa::automatic, log).value();
+    std::set<Place> corners[2];
+    for (int k = 0; k < 2; ++k) {
+        options.tile_size = k == 0 ? 16 : 80;
+        FilmShare share{FilmPart{}, [](Film&) { return std::vector<FilmArea>(); }};
+        options.share = &share;
+        std::mutex mutex;
+        const auto note = [&](const FinishedTile& tile) {
+            const std::lock_guard lock(mutex);
+            corners[k].insert({tile.area.x, tile.area.y});
+        };
+        ASSERT_TRUE(render(scene, camera, options, note, std::atomic<bool>(false)));
+    }
+    EXPECT_EQ(corners[0].size(), 15u);
+    EXPECT_EQ(corners[0], corners[1]);
 }
 
 }  // namespace

@@ -27,10 +27,12 @@ try:
     from selenium.webdriver.chrome.service import Service
     from selenium.webdriver.common.action_chains import ActionChains
     from selenium.webdriver.common.by import By
+    from selenium.webdriver.common.keys import Keys
 except ImportError:
     webdriver = None
 
 PROGRAM = os.environ.get("OBSCURA_PROGRAM")
+SOURCE = pathlib.Path(__file__).parents[2]
 CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
 DRIVER = shutil.which("chromedriver")
 DESK, PHONE = (1280, 800), (390, 844)
@@ -141,6 +143,10 @@ def read_png(data):
     return width, height, bytes(rgb)
 
 
+def mean_difference(a, b):
+    return sum(abs(x - y) for x, y in zip(a, b)) / len(a)
+
+
 def largest_difference(a, b):
     return max(abs(x - y) for x, y in zip(a, b))
 
@@ -148,14 +154,14 @@ def largest_difference(a, b):
 # ---- The server and the browser ----
 
 class Server:
-    def __init__(self, root):
-        command = [PROGRAM, "serve", "--root", root, "--port", "0"]
+    def __init__(self, root, *options):
+        command = [PROGRAM, "serve", "--root", root, "--port", "0", *options]
         self.process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
         self.url = next(filter(None, map(self.url_in, self.process.stdout)))
 
     @staticmethod
     def url_in(line):
-        found = re.search(r"http://\S+#token=\S+", line)
+        found = re.search(r"http://\S+", line)
         return found and found[0]
 
     def stop(self):
@@ -496,11 +502,51 @@ class PageTest(unittest.TestCase):
         self.wait_for(lambda: self.find("#token-form").is_displayed(), "the form")
         self.find("#token").send_keys("wrong\n")
         self.wait_for(lambda: self.text("#token-error"), "refusal")
-        self.expected_errors = 1
+        self.expected_errors = 2  # answers 401: without a token, and with a wrong one
         self.find("#token").clear()
         self.find("#token").send_keys(self.server.url.split("#token=")[1], "\n")
         self.wait_for(lambda: self.browser.find_elements(By.CSS_SELECTOR, "#root-files button"),
                       "the list")
+
+    def test_no_token_is_asked_for_where_there_is_none(self):
+        server = Server(self.root, "--no-token")
+        self.addCleanup(server.stop)
+        self.browser.get(f"{server.url}#file=boxes.glb")
+        self.wait_for(lambda: self.text("#samples"), "a first picture")
+        self.assertFalse(self.find("#token-dialog").is_displayed())
+        self.browser.get("about:blank")  # before that server ends
+
+    def test_a_missing_environment_leaves_the_view_open(self):
+        environment = self.root / "gone.hdr"
+        environment.write_bytes((SOURCE / "assets/environments/sky.hdr").read_bytes())
+        self.open_page()
+        self.choose("#env", "gone.hdr")
+        self.wait_till_done()
+        environment.unlink()
+        opened = """return performance.getEntriesByType("resource")
+            .filter((entry) => entry.name.endsWith("/api/views")).length"""
+        before = self.script(opened)
+        self.drag(80, 0)
+        self.wait_for(lambda: "gone.hdr" in self.text("#errors"), "the error")
+        time.sleep(1)
+        self.assertEqual(self.script(opened), before)
+        self.choose("#env", "studio")
+        self.wait_till_done()
+        self.assertEqual(self.text("#errors"), "")
+        self.assertTrue(self.browser.get_log("browser"), "answers 404")
+
+    def test_what_is_saved_is_the_latest_change(self):
+        for file in self.downloads.iterdir():
+            file.unlink()
+        self.open_page()
+        before = self.render_by_command()[2]
+        self.find("#picture").send_keys(Keys.ARROW_LEFT * 5, "s")
+        file = self.downloads / "boxes.png"
+        self.wait_for(file.exists, "the download")
+        self.wait_till_done()
+        saved, after = read_png(file.read_bytes())[2], self.render_by_command()[2]
+        self.assertLess(2 * mean_difference(saved, after), mean_difference(saved, before))
+        self.browser.get_log("browser")  # answers 400 while there was no picture yet
 
     def test_controls_have_names(self):
         self.open_page()

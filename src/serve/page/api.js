@@ -41,14 +41,16 @@ export function hasToken() {
   return sessionStorage.getItem(tokenKey) !== null;
 }
 
+/** Without a token for servers that ask for none; others answer 401. */
 function authorization() {
-  return `Bearer ${sessionStorage.getItem(tokenKey)}`;
+  return hasToken() ? `Bearer ${sessionStorage.getItem(tokenKey)}` : "";
 }
 
 function problemOf(status, text) {
   try {
     const answer = JSON.parse(text);
-    return Object.assign(new Problem(status, answer.error), {serial: answer.serial});
+    const {serial, wish} = answer;
+    return Object.assign(new Problem(status, answer.error), {serial, wish});
   } catch {
     return new Problem(status, {id: `HTTP ${status}`, text: text || "the server gave no reason"});
   }
@@ -133,7 +135,7 @@ export class View {
 
   /** Are the pictures that arrive still those of an earlier wish? */
   get isBehind() {
-    return Boolean(this.waiting) || this.shown < this.wish;
+    return Boolean(this.waiting) || this.isAsking || this.shown < this.wish;
   }
 
   close() {
@@ -144,6 +146,7 @@ export class View {
 
   /** Wishes for a picture; false if it is the one that is on its way already. */
   put(options) {
+    if (this.isClosed) return false;
     const text = JSON.stringify(options);
     if (text === this.sent && !this.isSending) return false;
     this.waiting = text;
@@ -172,6 +175,7 @@ export class View {
   }
 
   async sendOne(text) {
+    this.isAsking = true;
     try {
       const request = {method: "PUT", json: {options: JSON.parse(text)}, signal: this.life.signal};
       const answer = await callJson(this.path, request);
@@ -186,13 +190,16 @@ export class View {
         await pause(retryMs);
         this.waiting ??= text;
       }
+    } finally {
+      this.isAsking = false;
     }
   }
 
   report(source, error) {
     if (this.isClosed) return;
     if (!(error instanceof Problem)) throw error;
-    if (error.status === 404) {
+    if (error.status !== 0) this.listener.onProblem("server", null);
+    if (error.id === "E-SERVE-UNKNOWN") {  // others are of files that the wish names
       this.life.abort();
       this.listener.onGone();
     } else {
@@ -207,8 +214,12 @@ export class View {
         serial = await this.next(serial);
       } catch (error) {
         this.report("picture", error);
-        if (error.serial) serial = error.serial;
-        else await pause(retryMs);
+        if (error.serial) {
+          serial = error.serial;
+          this.shown = Math.max(this.shown, error.wish);
+        } else {
+          await pause(retryMs);
+        }
       }
     }
   }
@@ -237,8 +248,9 @@ export class View {
     return pixelsOf(await call(`${this.path}/matte?node=${encodeURIComponent(node)}`));
   }
 
-  /** The picture as a file; waits for the first one of a view that has just changed. */
+  /** The picture as a file, once it is that of the latest wish. */
   async image(format) {
+    while (this.isBehind && !this.isClosed) await pause(retryMs / 20);
     for (;;) {
       try {
         return (await call(`${this.path}/image?format=${format}`)).blob();

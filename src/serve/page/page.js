@@ -47,7 +47,8 @@ function showProblems() {
 /** Shows a problem until its source says that it is solved. */
 function complain(source, problem) {
   if (!(problem instanceof Problem)) throw problem;
-  if (problem.status === 401) return askToken("The server does not know this token.");
+  if (problem.status === 401)
+    return askToken(hasToken() ? "The server does not know this token." : "");
   const before = problems.get(source);
   problems.set(source, problem);
   if (before?.message !== problem.message) showProblems();  // or it would be read out once more
@@ -85,6 +86,10 @@ function askToken(error = "") {
 /** False: no other picture than the one that is there, or on its way, is wished for. */
 function wish() {
   showValues(sharp);
+  if (view?.isClosed) {
+    reopen();
+    return false;
+  }
   const isNew = Boolean(view?.put(optionsOf({view, camera, sharp})));
   if (isNew) showState("rendering");
   return isNew;
@@ -269,8 +274,22 @@ const listener = {
   onImage,
   onCommand: (command) => { byId("command").value = command; },
   onProblem,
-  onGone: () => openFile(view.file, {isAgain: true}),
+  onGone: () => {
+    if (performance.now() - reopenedAt > longEnoughMs) return reopen();
+    const text = "The server has closed this view, as others are open; a change opens it again.";
+    complain("open", new Problem(404, {id: "closed", text}));
+    showState("not rendered");
+  },
 };
+
+/** Where more views are open than the server keeps, they would else close each other for ever. */
+const longEnoughMs = 15000;
+let reopenedAt = -Infinity;
+
+function reopen() {
+  reopenedAt = performance.now();
+  return openFile(view.file, {isAgain: true});
+}
 
 /** Of models that are chosen while others are on their way, the last one wins. */
 let lastOpening = 0;
@@ -470,5 +489,4 @@ byId("token-form").addEventListener("submit", (event) => {
   if (!view) start(wanted);  // or the open view asks on by itself
 });
 watch();
-if (hasToken()) start(wanted);
-else askToken();
+start(wanted);
