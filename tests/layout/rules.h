@@ -81,26 +81,10 @@ inline constexpr std::array<std::string_view, 2> not_yet_mended{
     "surface/texture_record.h: `constexpr uint32_t pack_sampler`"};
 
 /// Headers of the operating system and the C library: every room may include them.
-inline constexpr std::array<std::string_view, 20> system_headers{"dirent.h",
-                                                                 "dlfcn.h",
-                                                                 "errno.h",
-                                                                 "fnmatch.h",
-                                                                 "fcntl.h",
-                                                                 "glob.h",
-                                                                 "linux/",
-                                                                 "malloc.h",
-                                                                 "poll.h",
-                                                                 "pthread.h",
-                                                                 "pwd.h",
-                                                                 "sched.h",
-                                                                 "signal.h",
-                                                                 "spawn.h",
-                                                                 "stdlib.h",
-                                                                 "strings.h",
-                                                                 "sys/",
-                                                                 "termios.h",
-                                                                 "time.h",
-                                                                 "unistd.h"};
+inline constexpr std::array<std::string_view, 20> system_headers{
+    "dirent.h", "dlfcn.h",   "errno.h",   "fnmatch.h", "fcntl.h", "glob.h",   "linux/",
+    "malloc.h", "poll.h",    "pthread.h", "pwd.h",     "sched.h", "signal.h", "spawn.h",
+    "stdlib.h", "strings.h", "sys/",      "termios.h", "time.h",  "unistd.h"};
 
 inline std::optional<size_t> room_number(std::string_view room) {
     for (size_t i = 0; i < rooms.size(); ++i) {
