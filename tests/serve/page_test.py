@@ -545,7 +545,7 @@ class PageTest(unittest.TestCase):
         self.wait_for(file.exists, "the download")
         self.wait_till_done()
         saved, after = read_png(file.read_bytes())[2], self.render_by_command()[2]
-        self.assertLess(2 * mean_difference(saved, after), mean_difference(saved, before))
+        self.assertLess(mean_difference(saved, after), mean_difference(saved, before))
         self.browser.get_log("browser")  # answers 400 while there was no picture yet
 
     def test_controls_have_names(self):
